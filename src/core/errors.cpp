@@ -1,0 +1,14 @@
+#include "core/errors.h"
+
+namespace slicelens {
+
+std::size_t checked_product(std::size_t a, std::size_t b, const std::string& what) {
+  std::size_t product = 0;
+  if (__builtin_mul_overflow(a, b, &product)) {
+    throw LimitError(what + ": " + std::to_string(a) + " x " + std::to_string(b) +
+                     " is more than this machine can address");
+  }
+  return product;
+}
+
+} // namespace slicelens
