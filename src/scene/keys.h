@@ -1,0 +1,111 @@
+// The one table of scene keys. Reading, writing, the list of keys and the proposals in error messages all
+// walk it, so a key is added in one place: a field in scene.h and a line here.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace slicelens {
+
+/// What a number must satisfy.
+enum class Range { any, positive, non_negative, unit };
+
+// Each function calls `visit.key(name, field, help)` or `visit.key(name, field, help, range)` for every key
+// of its section. `visit` decides what happens: see scene_json.cpp.
+
+template <class Visitor, class Settings>
+void volume_keys(Visitor& visit, Settings& s) {
+  visit.key("file", s.file, "volume file, DICOM folder or image stack; excludes phantom");
+  visit.key("phantom", s.phantom, "embedded phantom (slicelens list phantoms); excludes file");
+  visit.key("size", s.size, "voxels [x,y,z] of a phantom or of a headerless raw file");
+  visit.key("type", s.type, "scalar type of a headerless raw file: uint8 … float64");
+  visit.key("spacing", s.spacing, "voxel spacing [x,y,z] of a headerless raw file", Range::positive);
+  visit.endian("endian", s.big_endian, "byte order of a headerless raw file: little or big");
+  visit.key("component", s.component, "which component of a multi-component volume is shown, from 0");
+  visit.key("frame", s.frame, "which frame of a 4D file is shown, from 0");
+  visit.key("series", s.series, "which DICOM series of a folder (UID, or a part that only one has)");
+}
+
+template <class Visitor, class Settings>
+void transfer_keys(Visitor& visit, Settings& s) {
+  visit.key("preset", s.preset, "named transfer function (slicelens list presets); excludes points");
+  visit.key("points", s.points,
+            "[[value, r, g, b, opacity], …], value in data units, ascending; excludes preset");
+  visit.key("unit_distance", s.unit_distance,
+            "reference length of the opacities in world units (none: the smallest voxel spacing)",
+            Range::positive);
+}
+
+template <class Visitor, class Settings>
+void camera_keys(Visitor& visit, Settings& s) {
+  visit.key("azimuth", s.azimuth, "degrees about view up, as VTK's Azimuth");
+  visit.key("elevation", s.elevation, "degrees about the horizontal axis, as VTK's Elevation");
+  visit.key("roll", s.roll, "degrees about the viewing direction, as VTK's Roll");
+  visit.key("zoom", s.zoom, "divides the view angle or the parallel scale", Range::positive);
+  visit.key("projection", s.projection, "orthographic or perspective");
+  visit.key("view_angle", s.view_angle, "vertical view angle in degrees under perspective, below 180",
+            Range::positive);
+  visit.key("position", s.position, "eye in world space; excludes azimuth, elevation and roll");
+  visit.key("focal_point", s.focal_point, "point looked at, world space (none: the box centre)");
+  visit.key("view_up", s.view_up, "direction shown upwards, world space (none: +z)");
+  visit.key("parallel_scale", s.parallel_scale,
+            "half the picture's height in world units, orthographic (none: half the box diagonal)",
+            Range::positive);
+}
+
+template <class Visitor, class Settings>
+void render_keys(Visitor& visit, Settings& s) {
+  visit.key("pipeline", s.pipeline,
+            "where the volume is sampled: slices, rays (GPU) or reference (CPU, double precision)");
+  visit.key("mode", s.mode,
+            "dvr (emission and absorption), mip (maximum) or xray (line integral of the opacity)");
+  visit.key("xray_scale", s.xray_scale,
+            "grey shown for a line integral of one (none: one over the box diagonal)", Range::positive);
+  visit.key("size", s.size, "picture [width, height] in pixels");
+  visit.key("spacing", s.spacing, "slice or step distance in units of the smallest voxel spacing",
+            Range::positive);
+  visit.key("order", s.order, "back-to-front or front-to-back blending of slices");
+  visit.key("opacity_correction", s.opacity_correction,
+            "fragment (for the distance along each ray), frame (for the slice distance only) or none");
+  visit.key("shading", s.shading, "none or diffuse");
+  visit.key("gradient", s.gradient, "forward or central differences, for shading");
+  visit.key("filter", s.filter,
+            "nearest, linear (the driver's) or linear-exact (float weights in the shader)");
+  visit.key("target", s.target, "what slices blend into: rgba8, rgba16f or rgba32f");
+  visit.key("volume_texture", s.volume_texture, "texture the voxels are held in: auto, r8, r16 or r32f");
+  visit.key("transfer_texture", s.transfer_texture,
+            "texture the transfer function is held in: rgba8 or rgba32f");
+  visit.key("early_termination", s.early_termination, "rays stop at this opacity in (0,1]; 1: never",
+            Range::unit);
+  visit.key("background", s.background, "[r, g, b, a] in [0,1], not associated", Range::unit);
+  visit.key("context", s.context, "auto (osmesa, then egl), osmesa, egl or window");
+}
+
+template <class Visitor, class Settings>
+void light_keys(Visitor& visit, Settings& s) {
+  visit.key("direction", s.direction, "world vector towards the light (none: from the camera)");
+  visit.key("ambient", s.ambient, "share of the colour that needs no light", Range::non_negative);
+  visit.key("diffuse", s.diffuse, "share of the colour that follows Lambert's law", Range::non_negative);
+  visit.key("two_sided", s.two_sided, "light both sides of a surface");
+}
+
+template <class Visitor, class Settings>
+void clip_keys(Visitor& visit, Settings& s) {
+  visit.key("point", s.point, "a point of the plane, texture coordinates");
+  visit.key("normal", s.normal, "world vector; the side it points to is kept");
+  visit.key("space", s.space, "texture (the data) or object (the displayed volume)");
+}
+
+template <class Visitor, class Settings>
+void scene_keys(Visitor& visit, Settings& s) {
+  visit.key("title", s.title, "shown in galleries and reports");
+  visit.section("volume", s.volume, "what is rendered", [](auto& v, auto& x) { volume_keys(v, x); });
+  visit.section("transfer", s.transfer, "colour and opacity of each value",
+                [](auto& v, auto& x) { transfer_keys(v, x); });
+  visit.section("camera", s.camera, "where it is seen from", [](auto& v, auto& x) { camera_keys(v, x); });
+  visit.section("render", s.render, "how it is sampled and composited",
+                [](auto& v, auto& x) { render_keys(v, x); });
+  visit.section("light", s.light, "for shading", [](auto& v, auto& x) { light_keys(v, x); });
+  visit.list("clip", s.clip, "clipping planes", [](auto& v, auto& x) { clip_keys(v, x); });
+}
+
+} // namespace slicelens

@@ -1,0 +1,88 @@
+#include "scene/names.h"
+
+namespace slicelens {
+
+const std::vector<EnumName<ProjectionName>>& names_of(ProjectionName) {
+  static const std::vector<EnumName<ProjectionName>> names = {{ProjectionName::orthographic, "orthographic"},
+                                                              {ProjectionName::perspective, "perspective"}};
+  return names;
+}
+
+const std::vector<EnumName<Pipeline>>& names_of(Pipeline) {
+  static const std::vector<EnumName<Pipeline>> names = {
+      {Pipeline::slices, "slices"}, {Pipeline::rays, "rays"}, {Pipeline::reference, "reference"}};
+  return names;
+}
+
+const std::vector<EnumName<Mode>>& names_of(Mode) {
+  static const std::vector<EnumName<Mode>> names = {
+      {Mode::dvr, "dvr"}, {Mode::mip, "mip"}, {Mode::xray, "xray"}};
+  return names;
+}
+
+const std::vector<EnumName<Order>>& names_of(Order) {
+  static const std::vector<EnumName<Order>> names = {{Order::back_to_front, "back-to-front"},
+                                                     {Order::front_to_back, "front-to-back"}};
+  return names;
+}
+
+const std::vector<EnumName<OpacityCorrection>>& names_of(OpacityCorrection) {
+  static const std::vector<EnumName<OpacityCorrection>> names = {{OpacityCorrection::fragment, "fragment"},
+                                                                 {OpacityCorrection::frame, "frame"},
+                                                                 {OpacityCorrection::none, "none"}};
+  return names;
+}
+
+const std::vector<EnumName<Shading>>& names_of(Shading) {
+  static const std::vector<EnumName<Shading>> names = {{Shading::none, "none"},
+                                                       {Shading::diffuse, "diffuse"}};
+  return names;
+}
+
+const std::vector<EnumName<Gradient>>& names_of(Gradient) {
+  static const std::vector<EnumName<Gradient>> names = {{Gradient::forward, "forward"},
+                                                        {Gradient::central, "central"}};
+  return names;
+}
+
+const std::vector<EnumName<Filter>>& names_of(Filter) {
+  static const std::vector<EnumName<Filter>> names = {
+      {Filter::nearest, "nearest"}, {Filter::linear, "linear"}, {Filter::linear_exact, "linear-exact"}};
+  return names;
+}
+
+const std::vector<EnumName<Target>>& names_of(Target) {
+  static const std::vector<EnumName<Target>> names = {
+      {Target::rgba8, "rgba8"}, {Target::rgba16f, "rgba16f"}, {Target::rgba32f, "rgba32f"}};
+  return names;
+}
+
+const std::vector<EnumName<VolumeTexture>>& names_of(VolumeTexture) {
+  static const std::vector<EnumName<VolumeTexture>> names = {{VolumeTexture::automatic, "auto"},
+                                                             {VolumeTexture::r8, "r8"},
+                                                             {VolumeTexture::r16, "r16"},
+                                                             {VolumeTexture::r32f, "r32f"}};
+  return names;
+}
+
+const std::vector<EnumName<TransferTexture>>& names_of(TransferTexture) {
+  static const std::vector<EnumName<TransferTexture>> names = {{TransferTexture::rgba8, "rgba8"},
+                                                               {TransferTexture::rgba32f, "rgba32f"}};
+  return names;
+}
+
+const std::vector<EnumName<ContextName>>& names_of(ContextName) {
+  static const std::vector<EnumName<ContextName>> names = {{ContextName::automatic, "auto"},
+                                                           {ContextName::osmesa, "osmesa"},
+                                                           {ContextName::egl, "egl"},
+                                                           {ContextName::window, "window"}};
+  return names;
+}
+
+const std::vector<EnumName<ClipSpace>>& names_of(ClipSpace) {
+  static const std::vector<EnumName<ClipSpace>> names = {{ClipSpace::texture, "texture"},
+                                                         {ClipSpace::object, "object"}};
+  return names;
+}
+
+} // namespace slicelens

@@ -1,0 +1,51 @@
+// The words that stand for enumerators in scene files, on the command line and in tables.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace slicelens {
+
+template <class Enum>
+struct EnumName {
+  Enum value;
+  const char* name;
+};
+
+/// All words of an enumeration, in the order in which help texts show them.
+const std::vector<EnumName<ProjectionName>>& names_of(ProjectionName);
+const std::vector<EnumName<Pipeline>>& names_of(Pipeline);
+const std::vector<EnumName<Mode>>& names_of(Mode);
+const std::vector<EnumName<Order>>& names_of(Order);
+const std::vector<EnumName<OpacityCorrection>>& names_of(OpacityCorrection);
+const std::vector<EnumName<Shading>>& names_of(Shading);
+const std::vector<EnumName<Gradient>>& names_of(Gradient);
+const std::vector<EnumName<Filter>>& names_of(Filter);
+const std::vector<EnumName<Target>>& names_of(Target);
+const std::vector<EnumName<VolumeTexture>>& names_of(VolumeTexture);
+const std::vector<EnumName<TransferTexture>>& names_of(TransferTexture);
+const std::vector<EnumName<ContextName>>& names_of(ContextName);
+const std::vector<EnumName<ClipSpace>>& names_of(ClipSpace);
+
+/// The word of an enumerator.
+template <class Enum>
+std::string word(Enum value) {
+  for (const auto& entry : names_of(value)) {
+    if (entry.value == value)
+      return entry.name;
+  }
+  return "?";
+}
+
+/// All words of the enumeration of `any`.
+template <class Enum>
+std::vector<std::string> words_of(Enum any) {
+  std::vector<std::string> words;
+  for (const auto& entry : names_of(any))
+    words.emplace_back(entry.name);
+  return words;
+}
+
+} // namespace slicelens

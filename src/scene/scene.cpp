@@ -1,0 +1,82 @@
+#include "scene/scene.h"
+
+#include "core/errors.h"
+#include "core/text.h"
+
+namespace slicelens {
+
+namespace {
+
+void validate_volume(const VolumeSettings& volume) {
+  if (volume.file && volume.phantom)
+    throw UsageError("volume.file and volume.phantom are both given; keep one");
+  if (volume.file && volume.file->empty())
+    throw UsageError("volume.file is empty; name a file or folder");
+  if (volume.size) {
+    for (const std::size_t n : *volume.size) {
+      if (n == 0)
+        throw UsageError("volume.size: every axis needs at least 1 voxel");
+    }
+  }
+  if (volume.phantom && (volume.type || volume.spacing || volume.big_endian)) {
+    throw UsageError(
+        "volume.type, volume.spacing and volume.endian describe raw files; a phantom takes only size");
+  }
+}
+
+void validate_camera(const CameraSettings& camera) {
+  if (camera.position && (camera.azimuth != 0 || camera.elevation != 0 || camera.roll != 0)) {
+    throw UsageError(
+        "camera.position excludes azimuth, elevation and roll, which turn the default camera; keep one form");
+  }
+  if (camera.view_angle / camera.zoom >= 180 || camera.view_angle >= 180) {
+    throw UsageError("camera.view_angle divided by zoom must stay below 180 degrees");
+  }
+  if (camera.view_up && glm::length(*camera.view_up) == 0)
+    throw UsageError("camera.view_up is the zero vector; give a direction");
+}
+
+void validate_render(const RenderSettings& render) {
+  for (const std::size_t n : render.size) {
+    if (n < 1 || n > 32768)
+      throw UsageError("render.size: width and height must be from 1 to 32768 pixels");
+  }
+  if (render.early_termination <= 0)
+    throw UsageError("render.early_termination must be above 0 and at most 1");
+  if (render.early_termination < 1 && render.pipeline == Pipeline::slices) {
+    throw UsageError("render.early_termination belongs to rays and reference; slices cannot stop early");
+  }
+  if (render.order == Order::front_to_back && render.pipeline != Pipeline::slices) {
+    throw UsageError("render.order front-to-back is for slices; rays always go front to back");
+  }
+  if (render.mode == Mode::xray && render.target == Target::rgba8 && render.pipeline == Pipeline::slices) {
+    throw UsageError("mode 'xray' sums contributions far below 1/255, which target 'rgba8' rounds to "
+                     "nothing; use rgba16f or rgba32f");
+  }
+  if (render.mode == Mode::xray && render.shading != Shading::none) {
+    throw UsageError("mode 'xray' shows opacity, which has no shading; set render.shading to none");
+  }
+  if (render.mode == Mode::mip && render.shading != Shading::none) {
+    throw UsageError("mode 'mip' classifies one value, which has no gradient; set render.shading to none");
+  }
+}
+
+} // namespace
+
+void validate(const Scene& scene) {
+  validate_volume(scene.volume);
+  if (scene.transfer.preset && scene.transfer.points) {
+    throw UsageError("transfer.preset and transfer.points are both given; keep one");
+  }
+  validate_camera(scene.camera);
+  validate_render(scene.render);
+  if (scene.light.direction && glm::length(*scene.light.direction) == 0) {
+    throw UsageError("light.direction is the zero vector; give a direction");
+  }
+  for (const ClipSettings& plane : scene.clip) {
+    if (glm::length(plane.normal) == 0)
+      throw UsageError("clip: a plane's normal is the zero vector; give a direction");
+  }
+}
+
+} // namespace slicelens

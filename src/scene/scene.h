@@ -1,0 +1,115 @@
+// The scene: everything that decides a picture, as plain values (DESIGN §4 is the contract of its keys).
+#pragma once
+
+#include "volume/volume.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slicelens {
+
+/// Section `volume`. Exactly one of `file` and `phantom` is set.
+struct VolumeSettings {
+  std::optional<std::string> file = std::nullopt; ///< as given; relative paths are relative to the scene file
+  std::optional<std::string> phantom = std::nullopt;
+  std::optional<std::array<std::size_t, 3>> size = std::nullopt; ///< phantoms and headerless raw files
+  std::optional<ScalarType> type = std::nullopt;                 ///< headerless raw
+  std::optional<glm::dvec3> spacing = std::nullopt;              ///< headerless raw
+  std::optional<bool> big_endian = std::nullopt;                 ///< headerless raw: `endian` is "little" or "big"
+  std::optional<std::size_t> component = std::nullopt;           ///< which one of a multi-component volume
+  std::size_t frame = 0;                          ///< of a 4D file
+  std::string series;                             ///< which DICOM series of a folder
+};
+
+/// Section `transfer`. At most one of `preset`, `file` and `points`; none: automatic from the histogram.
+struct TransferSettings {
+  std::optional<std::string> preset = std::nullopt;
+  std::optional<std::vector<std::array<double, 5>>> points = std::nullopt; ///< value (data units), r, g, b, opacity in [0,1]
+  std::optional<double> unit_distance = std::nullopt;                      ///< Δ₀, world units; none: h
+};
+
+enum class ProjectionName { orthographic, perspective };
+
+/// Section `camera`. Angles in degrees, positions in world space (LPS).
+struct CameraSettings {
+  double azimuth = 0;
+  double elevation = 0;
+  double roll = 0;
+  double zoom = 1;
+  ProjectionName projection = ProjectionName::orthographic;
+  double view_angle = 30;
+  std::optional<glm::dvec3> position = std::nullopt;
+  std::optional<glm::dvec3> focal_point = std::nullopt;
+  std::optional<glm::dvec3> view_up = std::nullopt;
+  std::optional<double> parallel_scale = std::nullopt;
+};
+
+enum class Pipeline { slices, rays, reference };
+enum class Mode { dvr, mip, xray };
+enum class Order { back_to_front, front_to_back };
+enum class OpacityCorrection { fragment, frame, none };
+enum class Shading { none, diffuse };
+enum class Gradient { forward, central };
+enum class Filter { nearest, linear, linear_exact };
+enum class Target { rgba8, rgba16f, rgba32f };
+enum class VolumeTexture { automatic, r8, r16, r32f };
+enum class TransferTexture { rgba8, rgba32f };
+enum class ContextName { automatic, osmesa, egl, window };
+
+/// Section `render`.
+struct RenderSettings {
+  Pipeline pipeline = Pipeline::slices;
+  Mode mode = Mode::dvr;
+  std::optional<double> xray_scale = std::nullopt; ///< none: one over the box diagonal in Δ₀
+  std::array<std::size_t, 2> size{512, 512};
+  double spacing = 1; ///< in units of h
+  Order order = Order::back_to_front;
+  OpacityCorrection opacity_correction = OpacityCorrection::fragment;
+  Shading shading = Shading::none;
+  Gradient gradient = Gradient::central;
+  Filter filter = Filter::linear;
+  Target target = Target::rgba16f;
+  VolumeTexture volume_texture = VolumeTexture::automatic;
+  TransferTexture transfer_texture = TransferTexture::rgba32f;
+  double early_termination = 1; ///< rays stop when their opacity reaches this; 1: never
+  glm::dvec4 background{0, 0, 0, 1};
+  ContextName context = ContextName::automatic;
+};
+
+/// Section `light`.
+struct LightSettings {
+  std::optional<glm::dvec3>
+      direction; ///< world vector from the object towards the light; none: at the camera
+  double ambient = 0.3;
+  double diffuse = 0.7;
+  bool two_sided = true;
+};
+
+enum class ClipSpace { texture, object };
+
+/// One entry of `clip`: keeps the side its normal points to.
+struct ClipSettings {
+  glm::dvec3 point{0.5};      ///< texture coordinates
+  glm::dvec3 normal{0, 1, 0}; ///< world space, any length but zero
+  ClipSpace space = ClipSpace::texture;
+};
+
+struct Scene {
+  std::string title;
+  VolumeSettings volume;
+  TransferSettings transfer;
+  CameraSettings camera;
+  RenderSettings render;
+  LightSettings light;
+  std::vector<ClipSettings> clip;
+};
+
+/// Checks what single keys cannot say: alternatives given together, combinations that make no sense.
+/// Throws UsageError naming the keys.
+void validate(const Scene& scene);
+
+} // namespace slicelens

@@ -1,0 +1,115 @@
+#include "catch.h"
+#include "core/errors.h"
+#include "scene/scene_json.h"
+
+using namespace slicelens;
+
+namespace {
+
+/// The message of the UsageError that reading `text` throws; empty when it throws none.
+std::string refusal(const std::string& text, const std::vector<KeyValue>& changes = {}) {
+  try {
+    scene_from_json(text, "s.json", changes);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("an empty scene has every default") {
+  const Scene scene = scene_from_json("{}", "s.json");
+  CHECK(scene.volume.phantom == "head");
+  CHECK(scene.render.spacing == 1);
+  CHECK(scene.render.pipeline == Pipeline::slices);
+  CHECK(scene.render.background == glm::dvec4(0, 0, 0, 1));
+}
+
+TEST_CASE("keys of all kinds are read, with comments allowed") {
+  const Scene scene = scene_from_json(R"({
+    // a comment
+    "title": "x", "volume": {"file": "a.raw", "size": [4,5,6], "type": "short", "endian": "big"},
+    "transfer": {"points": [[0, 0,0,0,0], [10, 1,1,1,0.5]], "unit_distance": 2},
+    "camera": {"projection": "perspective", "azimuth": 30},
+    "render": {"mode": "mip", "size": [64, 32], "filter": "linear-exact", "background": [1,1,1,0]},
+    "clip": [{"point": [0.5,0.5,0.5], "normal": [1,0,0]}] /* end */ })",
+                                      "s.json");
+  CHECK(scene.volume.file == "a.raw");
+  CHECK((*scene.volume.size)[2] == 6);
+  CHECK(scene.volume.type == ScalarType::i16);
+  CHECK(scene.volume.big_endian == true);
+  CHECK((*scene.transfer.points)[1][4] == 0.5);
+  CHECK(scene.camera.projection == ProjectionName::perspective);
+  CHECK(scene.render.mode == Mode::mip);
+  CHECK(scene.render.filter == Filter::linear_exact);
+  CHECK(scene.clip.at(0).normal == glm::dvec3(1, 0, 0));
+}
+
+TEST_CASE("writing and reading again gives the same scene") {
+  const std::string once = scene_to_json(scene_from_json(
+      R"({"volume":{"phantom":"ball","size":[9,8,7]},"render":{"spacing":0.1},"clip":[{"normal":[0,0,1]}],"light":{"direction":[1,2,3]}})",
+      "s"));
+  CHECK(scene_to_json(scene_from_json(once, "s")) == once);
+}
+
+TEST_CASE("unknown keys name the nearest known one") {
+  CHECK(contains(refusal(R"({"render":{"spaceing":1}})"),
+                 "render.spaceing is not a scene key; did you mean render.spacing?"));
+  CHECK(contains(refusal(R"({"rendr":{}})"), "did you mean render?"));
+  CHECK(contains(refusal(R"({"clip":[{"nromal":[1,0,0]}]})"), "clip[0].nromal"));
+}
+
+TEST_CASE("wrong types and values are refused with what would be right") {
+  CHECK(contains(refusal(R"({"render":{"spacing":0}})"),
+                 "render.spacing: 0 is not valid; give a number above 0"));
+  CHECK(contains(refusal(R"({"render":{"spacing":"1"}})"), "give a number"));
+  CHECK(contains(refusal(R"({"render":{"mode":"drv"}})"), "give one of dvr, mip, xray"));
+  CHECK(contains(refusal(R"({"render":{"size":[64]}})"), "list of 2"));
+  CHECK(contains(refusal(R"({"render":{"size":[-1,5]}})"), "render.size[0]"));
+  CHECK(contains(refusal(R"({"render":{"size":[0,5]}})"), "render.size"));
+  CHECK(contains(refusal(R"({"render":{"background":[0,0,2,1]}})"), "from 0 to 1"));
+  CHECK(contains(refusal(R"({"volume":{"file":"a","phantom":"b"}})"), "keep one"));
+  CHECK(contains(refusal(R"({"camera":{"position":[0,0,0],"azimuth":3}})"), "camera.position excludes"));
+  CHECK(contains(refusal(R"({"light":{"direction":[0,0,0]}})"), "zero vector"));
+  CHECK(contains(refusal("{\n \"title\": }"), "line 2"));
+  CHECK(contains(refusal("[]"), "object"));
+}
+
+TEST_CASE("combinations that make no sense are refused by name") {
+  CHECK(contains(refusal(R"({"render":{"mode":"xray","target":"rgba8"}})"), "xray"));
+  CHECK(contains(refusal(R"({"render":{"early_termination":0.9}})"), "early_termination"));
+  CHECK(contains(refusal(R"({"render":{"pipeline":"rays","order":"front-to-back"}})"), "order"));
+  CHECK(contains(refusal(R"({"render":{"mode":"mip","shading":"diffuse"}})"), "shading"));
+}
+
+TEST_CASE("changes by --set reach every key and one alternative removes the other") {
+  const std::vector<KeyValue> changes = {
+      parse_assignment("render.spacing=0.5"), parse_assignment("volume.file=x.nrrd"),
+      parse_assignment("render.mode=mip"), parse_assignment("render.size=[8,9]")};
+  const Scene scene = scene_from_json(R"({"volume":{"phantom":"ball"}})", "s", changes);
+  CHECK(scene.render.spacing == 0.5);
+  CHECK(scene.volume.file == "x.nrrd");
+  CHECK_FALSE(scene.volume.phantom.has_value());
+  CHECK(scene.render.size[1] == 9);
+  CHECK(scene_from_json(R"({"volume":{"file":"a"}})", "s", {parse_assignment("volume.phantom=ball")})
+            .volume.phantom == "ball");
+  CHECK(contains(refusal("{}", {parse_assignment("render.spacng=1")}), "did you mean render.spacing?"));
+  CHECK(contains(refusal("{}", {parse_assignment("title.x.y=1"), parse_assignment("title.x=1")}), "title"));
+  CHECK_THROWS_AS(parse_assignment("spacing"), UsageError);
+  const Scene clipped =
+      scene_from_json(R"({"clip":[{"normal":[1,0,0]}]})", "s", {parse_assignment("clip[0].point=[0,0,0]")});
+  CHECK(clipped.clip[0].point == glm::dvec3(0));
+  CHECK(contains(refusal("{}", {parse_assignment("clip[3].point=[0,0,0]")}), "clip"));
+}
+
+TEST_CASE("every key has a help text") {
+  const auto keys = list_scene_keys();
+  CHECK(keys.size() > 40);
+  for (const auto& [key, help] : keys)
+    CHECK_FALSE(help.empty());
+}
