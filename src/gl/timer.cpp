@@ -1,0 +1,37 @@
+#include "gl/timer.h"
+
+#include "core/errors.h"
+
+namespace slicelens::gl {
+
+TimerQuery::TimerQuery(const Functions& gl) : gl_(&gl) {
+  GLuint name = 0;
+  gl.GenQueries(1, &name);
+  query_ = Query(gl, name);
+  if (!query_)
+    throw GraphicsError("the driver gives no timer query");
+  GLint bits = 0;
+  gl.GetQueryiv(GL_TIME_ELAPSED, GL_QUERY_COUNTER_BITS, &bits);
+  counts_ = bits > 0;
+}
+
+void TimerQuery::begin() { gl_->BeginQuery(GL_TIME_ELAPSED, query_.name()); }
+void TimerQuery::end() { gl_->EndQuery(GL_TIME_ELAPSED); }
+
+bool TimerQuery::available() const {
+  GLint done = GL_FALSE;
+  gl_->GetQueryObjectiv(query_.name(), GL_QUERY_RESULT_AVAILABLE, &done);
+  return done != GL_FALSE;
+}
+
+std::optional<std::uint64_t> TimerQuery::result_nanoseconds() const {
+  if (!counts_)
+    return std::nullopt;
+  GLuint64 nanoseconds = 0;
+  gl_->GetQueryObjectui64v(query_.name(), GL_QUERY_RESULT, &nanoseconds);
+  return nanoseconds;
+}
+
+void finish(const Functions& gl) { gl.Finish(); }
+
+} // namespace slicelens::gl
