@@ -1,0 +1,251 @@
+#include "volume/phantom.h"
+
+#include "core/errors.h"
+#include "core/text.h"
+#include "volume/phantom_rows.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numbers>
+
+namespace slicelens {
+
+namespace {
+
+struct Recipe {
+  PhantomInfo info;
+  ScalarType type = ScalarType::f32;
+  glm::dvec3 shape{1};     ///< box edges relative to the longest
+  double longest_edge = 0; ///< world units; 0: the largest number of voxels
+  PhantomRows (*rows)() = nullptr;
+};
+
+PhantomRows box_rows() {
+  return rows_of([](const glm::dvec3&) { return 1.0; });
+}
+
+PhantomRows ball_rows() {
+  return rows_of([](const glm::dvec3& t) {
+    return std::clamp(kBallRadius - glm::length(t - 0.5), -kBallClamp, kBallClamp);
+  });
+}
+
+PhantomRows blob_rows() {
+  return rows_of([](const glm::dvec3& t) {
+    const glm::dvec3 q = t - 0.5;
+    return kBlobAmplitude * std::exp(-glm::dot(q, q) / (2 * kBlobSigma * kBlobSigma));
+  });
+}
+
+PhantomRows ramp_rows() {
+  return rows_of([](const glm::dvec3& t) { return t.x; });
+}
+
+PhantomRows slab_rows() {
+  return rows_of([](const glm::dvec3& t) {
+    return t.y < 0.5 ? kSlabFront : t.y > 0.5 ? kSlabBack : (kSlabFront + kSlabBack) / 2;
+  });
+}
+
+/// Marschner and Lobb, An Evaluation of Reconstruction Filters for Volume Rendering, IEEE Visualization 1994,
+/// §5, with the paper's f_M = 6 and α = 0.25 on [−1,1]³. Its own sampling is 40³, close to the signal's
+/// Nyquist rate.
+PhantomRows marschner_lobb_rows() {
+  return rows_of([](const glm::dvec3& t) {
+    constexpr double pi = std::numbers::pi;
+    constexpr double f_m = 6;
+    constexpr double alpha = 0.25;
+    const glm::dvec3 p = 2.0 * t - 1.0;
+    const double r = std::sqrt(p.x * p.x + p.y * p.y);
+    const double rho_r = std::cos(2 * pi * f_m * std::cos(pi * r / 2));
+    return (1 - std::sin(pi * p.z / 2) + alpha * (1 + rho_r)) / (2 * (1 + alpha));
+  });
+}
+
+const std::vector<Recipe>& recipes() {
+  static const std::vector<Recipe> list = {
+      {{"box", "a box of constant extinction, exact at any resolution", "v = 1", {128, 128, 128}, "fog"},
+       ScalarType::f32,
+       glm::dvec3(1),
+       0,
+       box_rows},
+      {{"ball",
+        "a signed distance that a step transfer function cuts into an exact ball",
+        "v = clamp(0.4 - |t - 1/2|, -0.1, 0.1)",
+        {128, 128, 128},
+        "opaque"},
+       ScalarType::f32,
+       glm::dvec3(1),
+       0,
+       ball_rows},
+      {{"blob",
+        "a Gaussian blob with closed forms for X-ray and MIP",
+        "v = exp(-|t - 1/2|^2 / (2 sigma^2)), sigma = 1/8",
+        {128, 128, 128},
+        "grey-ramp"},
+       ScalarType::f32,
+       glm::dvec3(1),
+       0,
+       blob_rows},
+      {{"ramp", "a linear ramp along x", "v = t_x", {128, 128, 128}, "grey-ramp"},
+       ScalarType::f32,
+       glm::dvec3(1),
+       0,
+       ramp_rows},
+      {{"slabs",
+        "two slabs of different value, front and back: shows the order of compositing",
+        "v = 1 for t_y < 1/2, 2 for t_y > 1/2, 1.5 at 1/2",
+        {128, 128, 128},
+        "grey-ramp"},
+       ScalarType::f32,
+       glm::dvec3(1),
+       0,
+       slab_rows},
+      {{"checkerboard",
+        "8 x 8 x 8 cells of alternating value",
+        "v = (1 - s(8 t_x) s(8 t_y) s(8 t_z)) / 2, s = 1 on even and -1 on odd cells, each averaged over a "
+        "voxel",
+        {128, 128, 128},
+        "opaque"},
+       ScalarType::f32,
+       glm::dvec3(1),
+       0,
+       checkerboard_rows},
+      {{"brick",
+        "a block of bricks with mortar in a transparent border, to show deformations",
+        "0 outside [.12,.88]x[.26,.74]x[.12,.88], mortar 0.35, bricks 0.6 to 1 in running bond",
+        {128, 128, 128},
+        "opaque"},
+       ScalarType::f32,
+       glm::dvec3(1),
+       0,
+       brick_rows},
+      {{"marschner-lobb",
+        "the standard signal for reconstruction quality (Marschner and Lobb 1994)",
+        "v = (1 - sin(pi z/2) + a (1 + cos(2 pi f cos(pi r/2)))) / (2 (1 + a)), f = 6, a = 1/4, (x,y,z) = 2t "
+        "- 1, "
+        "r^2 = x^2 + y^2",
+        {128, 128, 128},
+        "opaque"},
+       ScalarType::f32,
+       glm::dvec3(1),
+       0,
+       marschner_lobb_rows},
+  };
+  return list;
+}
+
+const Recipe& recipe(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Recipe& candidate : recipes()) {
+    if (candidate.info.name == name)
+      return candidate;
+    names.push_back(candidate.info.name);
+  }
+  const auto nearest = nearest_word(name, names);
+  throw UsageError("phantom '" + name + "' is not known" +
+                   (nearest ? "; did you mean '" + *nearest + "'?" : "") + " (" + join(names) + ")");
+}
+
+std::string size_text(const std::array<std::size_t, 3>& size) {
+  return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
+}
+
+void check_size(const std::string& name, const std::array<std::size_t, 3>& size, ScalarType type) {
+  const std::string what = "phantom '" + name + "' of " + size_text(size) + " voxels";
+  if (*std::min_element(size.begin(), size.end()) == 0)
+    throw UsageError(what + ": every size must be at least 1");
+  if (*std::max_element(size.begin(), size.end()) > kMaxPhantomEdge)
+    throw LimitError(what + ": at most " + std::to_string(kMaxPhantomEdge) + " voxels on an edge");
+  // Three factors of at most 2^14 and one of 8 cannot overflow 64 bits.
+  const std::size_t bytes = size[0] * size[1] * size[2] * size_of(type);
+  if (bytes > kMaxPhantomBytes)
+    throw LimitError(what + " needs " + number_text(std::ceil(static_cast<double>(bytes) / (1 << 30))) +
+                     " GiB; at most " + std::to_string(kMaxPhantomBytes >> 30) +
+                     " GiB are made (1024 x 1024 x 1024 fits)");
+}
+
+template <class T>
+T scalar_from(double value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return static_cast<T>(value);
+  } else {
+    return static_cast<T>(std::clamp(std::round(value), static_cast<double>(std::numeric_limits<T>::min()),
+                                     static_cast<double>(std::numeric_limits<T>::max())));
+  }
+}
+
+template <class T>
+void evaluate_planes(const PhantomGrid& grid, const PhantomRows& rows, std::size_t first, std::size_t last,
+                     T* scalars) {
+  const std::size_t nx = grid.dims[0];
+  const std::size_t ny = grid.dims[1];
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(first * ny, last * ny, 8),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      std::vector<double> row(nx);
+                      for (std::size_t r = range.begin(); r != range.end(); ++r) {
+                        rows(grid, r % ny, r / ny, row);
+                        std::transform(row.begin(), row.end(), scalars + r * nx, scalar_from<T>);
+                      }
+                    });
+}
+
+} // namespace
+
+const std::vector<PhantomInfo>& phantoms() {
+  static const std::vector<PhantomInfo> infos = [] {
+    std::vector<PhantomInfo> list;
+    for (const Recipe& entry : recipes())
+      list.push_back(entry.info);
+    return list;
+  }();
+  return infos;
+}
+
+const PhantomInfo& phantom_info(const std::string& name) { return recipe(name).info; }
+
+Volume make_phantom(const std::string& name, const std::array<std::size_t, 3>& size,
+                    const Progress& progress) {
+  const Recipe& chosen = recipe(name);
+  check_size(name, size, chosen.type);
+  Volume volume;
+  volume.dims = size;
+  volume.type = chosen.type;
+  volume.format = "phantom";
+  const double longest = chosen.longest_edge > 0
+                             ? chosen.longest_edge
+                             : static_cast<double>(*std::max_element(size.begin(), size.end()));
+  const PhantomGrid grid{size, longest * chosen.shape};
+  volume.spacing = {grid.spacing(0), grid.spacing(1), grid.spacing(2)};
+  volume.origin = (volume.spacing - grid.edges) / 2.0;
+  try {
+    volume.voxels.resize(voxel_bytes(volume));
+  } catch (const std::bad_alloc&) {
+    throw LimitError("phantom '" + name + "' of " + size_text(size) + " voxels: not enough memory");
+  }
+  const PhantomRows rows = chosen.rows();
+  const std::size_t planes = size[2];
+  const std::size_t chunk = std::max<std::size_t>(1, planes / 16);
+  for (std::size_t k = 0; k < planes; k += chunk) {
+    report_progress(progress, "phantom", static_cast<double>(k) / static_cast<double>(planes));
+    const std::size_t end = std::min(planes, k + chunk);
+    visit_scalar_type(volume.type, [&](auto* tag) {
+      using T = std::remove_pointer_t<decltype(tag)>;
+      evaluate_planes(grid, rows, k, end, reinterpret_cast<T*>(volume.voxels.data()));
+    });
+  }
+  report_progress(progress, "phantom", 1);
+  update_statistics(volume);
+  return volume;
+}
+
+Volume make_phantom(const std::string& name, const Progress& progress) {
+  return make_phantom(name, phantom_info(name).size, progress);
+}
+
+} // namespace slicelens
