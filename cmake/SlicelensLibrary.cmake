@@ -37,23 +37,54 @@ function(slicelens_library name)
   add_library(slicelens::${name} ALIAS ${target})
 endfunction()
 
-# slicelens_test(volume SOURCES a_test.cpp … LINKS slicelens::volume … LABELS gl …)
-#
-# One Catch2 program per folder of tests/; every TEST_CASE is a ctest entry named `<folder>: <case>`. A case that
-# prints a line starting with "SKIPPED:" counts as skipped in ctest's summary, never as passed.
-function(slicelens_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS;ENVIRONMENT" ${ARGN})
+# One Catch2 program per folder of tests/. In asan builds leaks inside the graphics drivers are suppressed
+# (tests/support/lsan.supp says which).
+function(slicelens_test_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
   set(target test_${name})
   add_executable(${target} ${ARG_SOURCES})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   target_compile_definitions(${target} PRIVATE SLICELENS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE slicelens_warnings slicelens::core ${ARG_LINKS} Catch2::Catch2WithMain)
+endfunction()
+
+# Every TEST_CASE becomes a ctest entry named `<PREFIX>: <case>`. A case that prints a line starting with
+# "SKIPPED:" counts as skipped in ctest's summary, never as passed. SPEC selects cases, as Catch2 takes it.
+function(slicelens_register_tests name)
+  cmake_parse_arguments(ARG "" "PREFIX;SPEC" "LABELS;ENVIRONMENT" ${ARGN})
+  if(SLICELENS_SANITIZE MATCHES "address")
+    list(APPEND ARG_ENVIRONMENT
+      "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0")
+  endif()
   set(properties SKIP_REGULAR_EXPRESSION "SKIPPED:" TIMEOUT 600)
-  if(ARG_LABELS)
-    list(APPEND properties LABELS "${ARG_LABELS}")
-  endif()
-  if(ARG_ENVIRONMENT)
-    list(APPEND properties ENVIRONMENT "${ARG_ENVIRONMENT}")
-  endif()
-  catch_discover_tests(${target} TEST_PREFIX "${name}: " PROPERTIES ${properties})
+  foreach(property LABELS ENVIRONMENT)
+    if(ARG_${property})
+      # A list inside the list of properties: catch_discover_tests, its custom command and its script each take
+      # one escape away (tried with Catch2 2.13; `ctest --print-labels` must show gl and softpipe as two).
+      string(REPLACE ";" "\\\\\\\\\\;" value "${ARG_${property}}")
+      list(APPEND properties ${property} "${value}")
+    endif()
+  endforeach()
+  catch_discover_tests(test_${name} TEST_PREFIX "${ARG_PREFIX}: " TEST_SPEC ${ARG_SPEC} PROPERTIES ${properties})
+endfunction()
+
+# slicelens_test(volume SOURCES a_test.cpp … LINKS slicelens::volume … LABELS slow … ENVIRONMENT A=1 …)
+function(slicelens_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS;ENVIRONMENT" ${ARGN})
+  slicelens_test_program(${name} SOURCES ${ARG_SOURCES} LINKS ${ARG_LINKS})
+  slicelens_register_tests(${name} PREFIX ${name} LABELS ${ARG_LABELS} ENVIRONMENT ${ARG_ENVIRONMENT})
+endfunction()
+
+# slicelens_gl_test(render SOURCES a_test.cpp … LINKS slicelens::render …)
+#
+# The same for tests that open a context: every case runs on the default driver (label gl) and again as
+# `<folder> [softpipe]: <case>` on Mesa's other software rasteriser (labels gl and softpipe), which shares no code
+# generation with the first. Cases with the tag [one-driver] run on the default one only: use it for what softpipe
+# is too slow for.
+function(slicelens_gl_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS;ENVIRONMENT" ${ARGN})
+  slicelens_test_program(${name} SOURCES ${ARG_SOURCES} LINKS slicelens::gl ${ARG_LINKS})
+  slicelens_register_tests(${name} PREFIX ${name} LABELS gl ${ARG_LABELS} ENVIRONMENT ${ARG_ENVIRONMENT})
+  slicelens_register_tests(${name} PREFIX "${name} [softpipe]" SPEC ~[one-driver] LABELS gl softpipe ${ARG_LABELS}
+    ENVIRONMENT GALLIUM_DRIVER=softpipe ${ARG_ENVIRONMENT})
 endfunction()

@@ -33,15 +33,18 @@ int glsl_version(const std::string& text) {
   return at == std::string::npos ? 110 : std::atoi(text.c_str() + at + 8);
 }
 
-/// All pieces as one text; #line gives each its own string number and restarts its lines. Drivers drop the
-/// string numbers that glShaderSource would give (Mesa joins the strings), hence one text.
+// Every piece has a range of line numbers of its own. GLSL's string numbers (`#line line string`) were meant
+// for this, but Mesa reports string 0 for errors in expressions whatever they say.
+constexpr std::size_t lines_per_piece = 100000;
+
+/// All pieces as one text, each after a #line that starts its range.
 std::string concatenate(const Pieces& pieces) {
   // The line after `#line n` is n from GLSL 3.30 on and n + 1 before.
-  const char* first_line = glsl_version(pieces.front()->text) >= 330 ? "1" : "0";
+  const std::size_t first_line = glsl_version(pieces.front()->text) >= 330 ? 1 : 0;
   std::string text;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (i > 0) // nothing may stand before #version, and the first piece is string 0, line 1 anyway
-      text += std::string("#line ") + first_line + " " + std::to_string(i) + "\n";
+    if (i > 0) // nothing may stand before #version, and the first piece starts at line 1 anyway
+      text += "#line " + std::to_string(i * lines_per_piece + first_line) + "\n";
     text += pieces[i]->text;
     if (!text.empty() && text.back() != '\n')
       text += '\n';
@@ -55,7 +58,8 @@ bool read_number(const std::string& line, std::size_t& at, std::size_t& number) 
     return false;
   number = 0;
   for (; at < line.size() && std::isdigit(static_cast<unsigned char>(line[at])) != 0; ++at)
-    number = std::min<std::size_t>(number * 10 + static_cast<std::size_t>(line[at] - '0'), 1u << 20);
+    number =
+        std::min<std::size_t>(number * 10 + static_cast<std::size_t>(line[at] - '0'), std::size_t{1} << 30);
   return true;
 }
 
@@ -65,14 +69,14 @@ std::string with_names(std::string line, const Pieces& pieces) {
     if (line.rfind(prefix, 0) == 0)
       line.erase(0, 7);
   std::size_t at = 0;
-  std::size_t piece = 0;
+  std::size_t string = 0;
   std::size_t number = 0;
-  if (!read_number(line, at, piece) || at >= line.size() || (line[at] != ':' && line[at] != '('))
+  if (!read_number(line, at, string) || at >= line.size() || (line[at] != ':' && line[at] != '('))
     return line;
-  if (!read_number(line, ++at, number) || piece >= pieces.size())
+  if (!read_number(line, ++at, number) || number / lines_per_piece >= pieces.size())
     return line;
   const std::size_t text = line.find_first_not_of("0123456789():, \t", at);
-  return pieces[piece]->name + ":" + std::to_string(number) + ": " +
+  return pieces[number / lines_per_piece]->name + ":" + std::to_string(number % lines_per_piece) + ": " +
          (text == std::string::npos ? "" : line.substr(text));
 }
 
