@@ -19,17 +19,18 @@ struct VolumeSettings {
   std::optional<std::array<std::size_t, 3>> size = std::nullopt; ///< phantoms and headerless raw files
   std::optional<ScalarType> type = std::nullopt;                 ///< headerless raw
   std::optional<glm::dvec3> spacing = std::nullopt;              ///< headerless raw
-  std::optional<bool> big_endian = std::nullopt;                 ///< headerless raw: `endian` is "little" or "big"
-  std::optional<std::size_t> component = std::nullopt;           ///< which one of a multi-component volume
-  std::size_t frame = 0;                          ///< of a 4D file
-  std::string series;                             ///< which DICOM series of a folder
+  std::optional<bool> big_endian = std::nullopt;       ///< headerless raw: `endian` is "little" or "big"
+  std::optional<std::size_t> component = std::nullopt; ///< which one of a multi-component volume
+  std::size_t frame = 0;                               ///< of a 4D file
+  std::string series;                                  ///< which DICOM series of a folder
 };
 
 /// Section `transfer`. At most one of `preset`, `file` and `points`; none: automatic from the histogram.
 struct TransferSettings {
   std::optional<std::string> preset = std::nullopt;
-  std::optional<std::vector<std::array<double, 5>>> points = std::nullopt; ///< value (data units), r, g, b, opacity in [0,1]
-  std::optional<double> unit_distance = std::nullopt;                      ///< Δ₀, world units; none: h
+  std::optional<std::vector<std::array<double, 5>>> points =
+      std::nullopt;                                   ///< value (data units), r, g, b, opacity in [0,1]
+  std::optional<double> unit_distance = std::nullopt; ///< Δ₀, world units; none: h
 };
 
 enum class ProjectionName { orthographic, perspective };

@@ -1,0 +1,16 @@
+// Second pass of MIP by slices: classifies the largest value of each pixel once, at the end.
+
+#include "lib/composite.glsl"
+#include "gpu/classify.glsl"
+
+uniform sampler2D maxima;
+uniform vec2 value_from_unit;
+
+in vec2 place;
+out vec4 result;
+
+void main() {
+  vec4 largest = texelFetch(maxima, ivec2(gl_FragCoord.xy), 0);
+  vec4 color = classify(value_from_unit.x * largest.r + value_from_unit.y);
+  result = largest.a > 0.0 ? associated(color.rgb, color.a) : vec4(0.0);
+}

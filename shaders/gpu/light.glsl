@@ -1,0 +1,24 @@
+// Shading of a sample from gradients taken on the fly. SHADING_DIFFUSE with GRADIENT_FORWARD or GRADIENT_CENTRAL.
+
+#ifdef SHADING_DIFFUSE
+uniform vec3 voxel;                  // size of one voxel in texture coordinates
+uniform mat3 world_from_gradient;    // inverse transpose of world_from_texture
+uniform vec3 to_light;               // world space, unit; ignored with LIGHT_AT_EYE
+uniform float ambient;
+uniform float diffuse;
+uniform bool two_sided;
+
+vec3 shade(vec3 color, vec3 p, vec3 to_eye) {
+#ifdef GRADIENT_FORWARD
+  vec3 gradient = world_from_gradient * forward_gradient(p, voxel);
+#else
+  vec3 gradient = world_from_gradient * central_gradient(p, voxel);
+#endif
+#ifdef LIGHT_AT_EYE
+  vec3 light = to_eye;
+#else
+  vec3 light = to_light;
+#endif
+  return color * diffuse_factor(gradient, light, ambient, diffuse, two_sided);
+}
+#endif

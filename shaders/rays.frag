@@ -1,0 +1,80 @@
+// A ray through each pixel, sampled front to back (METHODS §0). The loop gathers in its own variables only and nothing
+// that a diverging loop computes is read but through them.
+
+#include "lib/opacity.glsl"
+#include "lib/composite.glsl"
+#include "lib/ray.glsl"
+#include "gpu/volume.glsl"
+#include "gpu/classify.glsl"
+#include "lib/gradient.glsl"
+#include "lib/shade.glsl"
+#include "gpu/light.glsl"
+
+uniform RayFrame frame;
+uniform float delta;             // Δ, world units
+uniform float distance_ratio;    // Δ/Δ₀, or 1 without correction
+uniform float early_termination;
+uniform vec3 to_eye_axis;
+uniform mat3 world_from_direction;  // texture-space vectors to world space
+uniform int clip_count;
+uniform vec4 clip_planes[MAX_CLIP_PLANES];
+
+in vec2 place;
+out vec4 result;
+
+vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
+  float value = displayed_value(p);
+#if defined(MODE_MIP)
+  return vec4(max(gathered.x, value), 0.0, 0.0, 1.0);
+#else
+  vec4 sample_color = classify(value);
+#if defined(MODE_XRAY)
+  return gathered + vec4(sample_color.a * distance_ratio);
+#else
+#ifdef SHADING_DIFFUSE
+  sample_color.rgb = shade(sample_color.rgb, p, to_eye);
+#endif
+#ifdef CORRECT_CONSTANT
+  sample_color.a = corrected_opacity(sample_color.a, distance_ratio);
+#endif
+  return under(gathered, associated(sample_color.rgb, sample_color.a));
+#endif
+#endif
+}
+
+void main() {
+#ifdef PERSPECTIVE
+  PixelRay ray = ray_from_pixel(frame, true, place.x, place.y);
+  vec3 to_eye = -normalize(world_from_direction * ray.direction);
+#else
+  PixelRay ray = ray_from_pixel(frame, false, place.x, place.y);
+  vec3 to_eye = to_eye_axis;
+#endif
+  vec2 interval = hit_box(ray);
+  for (int i = 0; i < clip_count; ++i) interval = clip_interval(interval, ray, clip_planes[i]);
+#if defined(MODE_MIP)
+  vec4 gathered = vec4(-3.0e38, 0.0, 0.0, 0.0);
+#else
+  vec4 gathered = vec4(0.0);
+#endif
+  if (interval.x <= interval.y) {
+    int first = int(first_sample(interval.x, delta));
+    int last = int(last_sample(interval.y, delta));
+    for (int k = first; k <= last; ++k) {
+      vec3 p = ray.origin + ((float(k) + 0.5) * delta) * ray.direction;
+      gathered = gather(gathered, p, to_eye);
+#if defined(EARLY_TERMINATION) && defined(MODE_DVR)
+      if (gathered.a >= early_termination) break;
+#endif
+    }
+  }
+#if defined(MODE_MIP)
+  if (gathered.w > 0.0) {
+    vec4 color = classify(gathered.x);
+    gathered = associated(color.rgb, color.a);
+  } else {
+    gathered = vec4(0.0);
+  }
+#endif
+  result = gathered;
+}

@@ -1,0 +1,129 @@
+#include "render/gpu_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace slicelens {
+
+namespace {
+
+/// value = scale · code + offset, for texels stored as `code`.
+struct Coding {
+  double scale = 1;
+  double offset = 0;
+};
+
+/// How values of a volume are stored in normalised texels of type U: exactly where an integer type fits, else
+/// spread over the volume's range.
+template <class U>
+Coding coding_of(const Volume& volume) {
+  const bool integer = volume.type != ScalarType::f32 && volume.type != ScalarType::f64;
+  const double levels = std::numeric_limits<U>::max();
+  if (integer && volume.max - volume.min <= levels)
+    return {1, volume.min};
+  const double range = volume.max - volume.min;
+  return {range > 0 ? range / levels : 1, volume.min};
+}
+
+/// Converts scalars [first, first + count) to texels.
+template <class T, class Texel>
+void encode(const Volume& volume, const Coding& coding, std::size_t first, std::span<std::byte> slab) {
+  const T* in = reinterpret_cast<const T*>(volume.voxels.data()) + first;
+  Texel* out = reinterpret_cast<Texel*>(slab.data());
+  const std::size_t count = slab.size() / sizeof(Texel);
+  const double inverse = 1 / coding.scale;
+  for (std::size_t i = 0; i < count; ++i) {
+    if constexpr (std::is_floating_point_v<Texel>) {
+      const double value = static_cast<double>(in[i]);
+      out[i] = static_cast<Texel>((std::isfinite(value) ? value : volume.min) - coding.offset);
+    } else if constexpr (std::is_integral_v<T>) {
+      out[i] = static_cast<Texel>(std::lround((static_cast<double>(in[i]) - coding.offset) * inverse));
+    } else {
+      const double value = static_cast<double>(in[i]);
+      out[i] = static_cast<Texel>(
+          std::lround(((std::isfinite(value) ? value : volume.min) - coding.offset) * inverse));
+    }
+  }
+}
+
+template <class Texel>
+gl::Texture upload_volume(const gl::Functions& gl, const PreparedScene& prepared, GLenum format,
+                          const Coding& coding, const Progress& progress) {
+  const Volume& volume = prepared.volume;
+  gl::TextureSpec spec;
+  spec.format = format;
+  spec.filter = prepared.scene.render.filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
+  const std::array<int, 3> size = {static_cast<int>(std::min<std::size_t>(volume.dims[0], INT32_MAX)),
+                                   static_cast<int>(std::min<std::size_t>(volume.dims[1], INT32_MAX)),
+                                   static_cast<int>(std::min<std::size_t>(volume.dims[2], INT32_MAX))};
+  const std::size_t plane = volume.dims[0] * volume.dims[1];
+  return gl::make_texture_3d(
+      gl, spec, size,
+      [&](int z0, int, std::span<std::byte> slab) {
+        visit_scalar_type(volume.type, [&](auto* tag) {
+          using T = std::remove_pointer_t<decltype(tag)>;
+          encode<T, Texel>(volume, coding, static_cast<std::size_t>(z0) * plane, slab);
+        });
+      },
+      progress);
+}
+
+/// A table is uploaded as floats; an 8-bit one has the 256 texels of the papers' hardware.
+gl::Texture upload_transfer(const gl::Functions& gl, const PreparedScene& prepared, GpuScene& scene) {
+  const bool eight_bit = prepared.scene.render.transfer_texture == TransferTexture::rgba8;
+  const TransferTable table =
+      make_table(prepared.transfer, eight_bit ? 256 : 0, prepared.volume.min, prepared.volume.max);
+  const double count = static_cast<double>(texel_count(table));
+  const double scale = (count - 1) / (count * (table.last - table.first));
+  scene.transfer_from_value = glm::vec2(scale, 0.5 / count - scale * table.first);
+  scene.transfer_texels = texel_count(table);
+  gl::TextureSpec spec;
+  spec.format = eight_bit ? GL_RGBA8 : GL_RGBA32F;
+  spec.source_type = GL_FLOAT;
+  return gl::make_texture_1d(gl, spec, static_cast<int>(texel_count(table)),
+                             std::as_bytes(std::span(table.rgba)));
+}
+
+} // namespace
+
+VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type) {
+  if (wish != VolumeTexture::automatic)
+    return wish;
+  return size_of(type) <= 2 ? VolumeTexture::r16 : VolumeTexture::r32f;
+}
+
+GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Progress& progress) {
+  const Volume& volume = prepared.volume;
+  GpuScene scene;
+  scene.format = chosen_texture(prepared.scene.render.volume_texture, volume.type);
+  Coding coding;
+  double levels = 1;
+  std::size_t texel_bytes = 4;
+  if (scene.format == VolumeTexture::r8) {
+    coding = coding_of<std::uint8_t>(volume);
+    levels = 255;
+    texel_bytes = 1;
+    scene.volume = upload_volume<std::uint8_t>(gl, prepared, GL_R8, coding, progress);
+  } else if (scene.format == VolumeTexture::r16) {
+    coding = coding_of<std::uint16_t>(volume);
+    levels = 65535;
+    texel_bytes = 2;
+    scene.volume = upload_volume<std::uint16_t>(gl, prepared, GL_R16, coding, progress);
+  } else {
+    // Floats keep 24 bits of the distance from the smallest value, which saves large offsets (and 64-bit
+    // integers).
+    coding = {1, volume.type == ScalarType::f32 ? 0 : volume.min};
+    scene.volume = upload_volume<float>(gl, prepared, GL_R32F, coding, progress);
+  }
+  scene.value_from_texel = glm::vec2(coding.scale * levels, coding.offset);
+  scene.transfer = upload_transfer(gl, prepared, scene);
+  scene.bytes =
+      voxel_count(volume) * texel_bytes +
+      scene.transfer_texels * (prepared.scene.render.transfer_texture == TransferTexture::rgba8 ? 4 : 16);
+  return scene;
+}
+
+} // namespace slicelens

@@ -1,0 +1,29 @@
+// The volume and the transfer function as textures.
+#pragma once
+
+#include "gl/texture.h"
+#include "render/prepare.h"
+
+namespace slicelens {
+
+/// Textures of a prepared scene, shared by the GPU pipelines.
+struct GpuScene {
+  gl::Texture volume;                         ///< 3D, one channel
+  gl::Texture transfer;                       ///< 1D, straight RGBA
+  glm::vec2 value_from_texel{1, 0};           ///< data value = x · texel + y
+  glm::vec2 transfer_from_value{1, 0};        ///< table coordinate = x · value + y
+  VolumeTexture format = VolumeTexture::r32f; ///< what `automatic` became
+  std::size_t bytes = 0;                      ///< of both textures
+  std::size_t transfer_texels = 0;
+};
+
+/// The texture that render.volume_texture `auto` stands for: r16 for integers of 8 and 16 bits, which it
+/// holds exactly, else r32f. Not r8: software drivers filter 8-bit textures to 8 bits (docs/accuracy.md).
+VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type);
+
+/// Uploads both. Integers are stored so that they come back exactly where the format has the bits; otherwise
+/// values are scaled to the format over the volume's range. Non-finite voxels become the smallest finite
+/// value. Throws LimitError where the driver has no room.
+GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Progress& progress);
+
+} // namespace slicelens

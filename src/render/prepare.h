@@ -1,0 +1,46 @@
+// A scene with its data, and every quantity that its picture depends on, worked out once for all pipelines.
+#pragma once
+
+#include "core/view.h"
+#include "scene/scene.h"
+#include "slicing/polygon.h"
+#include "volume/transfer.h"
+#include "volume/volume.h"
+
+#include <vector>
+
+namespace slicelens {
+
+/// Lengths are in world units. Plain data: change the scene, prepare again.
+struct PreparedScene {
+  Scene scene;
+  Volume volume; ///< one component
+  TransferFunction transfer;
+  Box box;
+  View view;
+  double spacing = 1;       ///< Δ, slice or step distance
+  double unit_distance = 1; ///< Δ₀, the length that the transfer function's opacities are for
+  double xray_scale = 1;    ///< grey of a line integral of one
+  std::vector<Plane> clip;  ///< half-spaces kept, in texture space
+};
+
+/// Works out the rest. Throws UsageError where scene and data do not fit.
+PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer);
+
+/// The same data seen by another camera or with other render settings; nothing is read again.
+void prepare_again(PreparedScene& prepared);
+
+/// Δ/Δ₀: exponent of the opacity correction on the view axis and along rays (METHODS §0).
+double axis_distance_ratio(const PreparedScene& prepared);
+
+/// How a pipeline must correct the opacity of a sample.
+enum class Correction { none, constant, per_fragment };
+
+/// What render.opacity_correction asks of the pipeline: nothing where it would not change a value, per
+/// fragment only for planar slices under perspective.
+Correction correction_of(const PreparedScene& prepared);
+
+/// Unit vector in world space from the object towards the light; `to_eye` where the light is at the camera.
+glm::dvec3 light_direction(const PreparedScene& prepared, const glm::dvec3& to_eye);
+
+} // namespace slicelens

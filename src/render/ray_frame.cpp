@@ -1,0 +1,31 @@
+#include "render/ray_frame.h"
+
+#include "slicing/slice_stack.h"
+
+namespace slicelens {
+
+RayFrameValues ray_frame(const PreparedScene& prepared) {
+  const View& view = prepared.view;
+  const glm::dmat4 texture_from_world = slicelens::texture_from_world(prepared.box);
+  const glm::dmat3 turn(texture_from_world);
+  const glm::dvec3 middle = center(prepared.box);
+  RayFrameValues frame;
+  frame.forward = turn * view.forward;
+  frame.right = turn * (half_width(view) * view.right);
+  frame.up = turn * (view.half_height * view.up);
+  frame.half_width = half_width(view);
+  frame.half_height = view.half_height;
+  frame.anchor = glm::length(view.eye - middle);
+  // Orthographic anchors lie on the plane through the box centre, so that sample distances stay small.
+  const glm::dvec3 anchor =
+      view.projection == Projection::perspective ? view.eye : view.eye + depth(view, middle) * view.forward;
+  frame.center = glm::dvec3(texture_from_world * glm::dvec4(anchor, 1));
+  return frame;
+}
+
+void check_sample_count(const PreparedScene& prepared) {
+  const double radius = bounding_radius(prepared.box);
+  plane_range({-radius, radius}, prepared.spacing);
+}
+
+} // namespace slicelens

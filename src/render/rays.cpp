@@ -1,0 +1,77 @@
+#include "render/rays.h"
+
+#include "gl/check.h"
+#include "gl/state.h"
+#include "gl/timer.h"
+#include "render/ray_frame.h"
+#include "render/shaders.h"
+#include "render/uniforms.h"
+
+#include <algorithm>
+
+namespace slicelens {
+
+namespace {
+
+void set_ray_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared) {
+  const RayFrameValues frame = ray_frame(prepared);
+  set_uniform(gl, program, "frame.center", glm::vec3(frame.center));
+  set_uniform(gl, program, "frame.forward", glm::vec3(frame.forward));
+  set_uniform(gl, program, "frame.right", glm::vec3(frame.right));
+  set_uniform(gl, program, "frame.up", glm::vec3(frame.up));
+  set_uniform(gl, program, "frame.half_width", static_cast<float>(frame.half_width));
+  set_uniform(gl, program, "frame.half_height", static_cast<float>(frame.half_height));
+  set_uniform(gl, program, "frame.anchor", static_cast<float>(frame.anchor));
+  set_uniform(gl, program, "delta", static_cast<float>(prepared.spacing));
+  set_uniform(gl, program, "early_termination", static_cast<float>(prepared.scene.render.early_termination));
+  set_uniform(gl, program, "world_from_direction", glm::mat3(prepared.box.world_from_texture));
+  std::vector<glm::vec4> planes;
+  for (const Plane& plane : prepared.clip)
+    planes.emplace_back(plane.normal, -plane.offset);
+  set_uniform(gl, program, "clip_count", static_cast<int>(planes.size()));
+  if (!planes.empty())
+    set_uniform(gl, program, "clip_planes", std::span<const glm::vec4>(planes));
+}
+
+} // namespace
+
+RayRenderer::RayRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
+  check_sample_count(prepared);
+  std::vector<std::string> macros = common_macros(prepared);
+  macros.push_back("MAX_CLIP_PLANES " + std::to_string(std::max<std::size_t>(1, prepared.clip.size())));
+  if (prepared.scene.render.early_termination < 1)
+    macros.emplace_back("EARLY_TERMINATION");
+  std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});
+  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "rays.frag", macros);
+  stages.insert(stages.end(), fragment.begin(), fragment.end());
+  program_ = gl::make_program(gl, stages);
+  no_vertices_ = gl::make_vertex_array(gl);
+}
+
+void RayRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target,
+                       const Progress& progress) {
+  const gl::Functions& gl = *gl_;
+  const gl::StateGuard guard(gl);
+  gl::bind_target(gl, target);
+  for (const GLenum off : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_DITHER})
+    gl.Disable(off);
+  gl.UseProgram(program_.name());
+  set_common_uniforms(gl, program_, prepared, scene);
+  set_ray_uniforms(gl, program_, prepared);
+  gl.BindVertexArray(no_vertices_.name());
+  // One triangle draws the picture. Only where somebody watches it is cut into bands.
+  const int band = progress.advance ? std::max(16, target.height / 32) : target.height;
+  gl.Enable(GL_SCISSOR_TEST);
+  for (int y = 0; y < target.height; y += band) {
+    gl.Scissor(0, y, target.width, std::min(band, target.height - y));
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    if (progress.advance) {
+      gl::finish(gl);
+      report_progress(progress, "draw",
+                      static_cast<double>(std::min(y + band, target.height)) / target.height);
+    }
+  }
+  gl::check_errors(gl, "casting the rays");
+}
+
+} // namespace slicelens

@@ -1,0 +1,173 @@
+#include "render/reference.h"
+
+#include "render/ray_frame.h"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+namespace slicelens {
+
+namespace {
+
+// Names of GLSL for the shared shader functions below. They are compiled inside a class, so that the values
+// they take from their host (uniforms and samplers in GLSL) are its members.
+using namespace glm;
+using real = double;
+using vec2 = glm::dvec2;
+using vec3 = glm::dvec3;
+using vec4 = glm::dvec4;
+
+struct SharedFunctions {
+#include "lib/composite.glsl"
+#include "lib/opacity.glsl"
+#include "lib/ray.glsl"
+#include "lib/shade.glsl"
+};
+
+/// Everything one thread needs to trace rays through voxels of type T.
+template <class T>
+struct Tracer : SharedFunctions {
+  const PreparedScene& prepared;
+  const T* voxels;
+  ivec3 dims;
+  vec3 voxel;
+  dmat3 world_from_gradient;
+  bool nearest;
+  Correction correction;
+  real ratio;
+
+  explicit Tracer(const PreparedScene& scene)
+      : prepared(scene), voxels(reinterpret_cast<const T*>(scene.volume.voxels.data())),
+        dims(scene.volume.dims[0], scene.volume.dims[1], scene.volume.dims[2]), voxel(1.0 / vec3(dims)),
+        world_from_gradient(glm::transpose(glm::inverse(dmat3(scene.box.world_from_texture)))),
+        nearest(scene.scene.render.filter == Filter::nearest), correction(correction_of(scene)),
+        ratio(scene.scene.render.opacity_correction == OpacityCorrection::none ? 1
+                                                                               : axis_distance_ratio(scene)) {
+  }
+
+  real voxel_value(int i, int j, int k) const {
+    const auto index =
+        (static_cast<std::size_t>(k) * static_cast<std::size_t>(dims.y) + static_cast<std::size_t>(j)) *
+            static_cast<std::size_t>(dims.x) +
+        static_cast<std::size_t>(i);
+    const real value = static_cast<real>(voxels[index]);
+    if constexpr (std::is_floating_point_v<T>)
+      return std::isfinite(value) ? value : prepared.volume.min;
+    return value;
+  }
+
+  /// The data value at p: trilinear between voxel centres (i+½)/N, clamped to the edge.
+  real displayed_value(vec3 p) const {
+    const vec3 position = clamp(p * vec3(dims) - 0.5, vec3(0), vec3(dims) - 1.0);
+    if (nearest) {
+      const ivec3 n = min(ivec3(floor(clamp(p, vec3(0), vec3(1)) * vec3(dims))), dims - 1);
+      return voxel_value(n.x, n.y, n.z);
+    }
+    const ivec3 a = ivec3(floor(position));
+    const ivec3 b = min(a + 1, dims - 1);
+    const vec3 f = position - vec3(a);
+    const auto along_x = [&](int j, int k) {
+      return mix(voxel_value(a.x, j, k), voxel_value(b.x, j, k), f.x);
+    };
+    return mix(mix(along_x(a.y, a.z), along_x(b.y, a.z), f.y), mix(along_x(a.y, b.z), along_x(b.y, b.z), f.y),
+               f.z);
+  }
+
+#include "lib/gradient.glsl"
+
+  vec3 shaded(vec3 color, vec3 p, vec3 to_eye) {
+    const vec3 by_texture = prepared.scene.render.gradient == Gradient::forward ? forward_gradient(p, voxel)
+                                                                                : central_gradient(p, voxel);
+    const LightSettings& light = prepared.scene.light;
+    return color * this->diffuse_factor(world_from_gradient * by_texture, light_direction(prepared, to_eye),
+                                        light.ambient, light.diffuse, light.two_sided);
+  }
+
+  vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
+    const real value = displayed_value(p);
+    const Mode mode = prepared.scene.render.mode;
+    if (mode == Mode::mip)
+      return vec4(max(gathered.x, value), 0, 0, 1);
+    const vec4 color = evaluate(prepared.transfer, value);
+    if (mode == Mode::xray)
+      return gathered + vec4(color.w * ratio);
+    vec3 rgb(color);
+    if (prepared.scene.render.shading == Shading::diffuse && color.w > 0)
+      rgb = shaded(rgb, p, to_eye);
+    const real alpha = correction == Correction::none ? color.w : this->corrected_opacity(color.w, ratio);
+    return this->under(gathered, this->associated(rgb, alpha));
+  }
+
+  vec4 trace(const SharedFunctions::RayFrame& frame, bool perspective, real x, real y) {
+    const SharedFunctions::PixelRay ray = this->ray_from_pixel(frame, perspective, x, y);
+    vec2 interval = this->hit_box(ray);
+    for (const Plane& plane : prepared.clip)
+      interval = this->clip_interval(interval, ray, vec4(plane.normal, -plane.offset));
+    const bool mip = prepared.scene.render.mode == Mode::mip;
+    vec4 gathered = mip ? vec4(-std::numeric_limits<real>::infinity(), 0, 0, 0) : vec4(0);
+    if (interval.x > interval.y)
+      return vec4(0);
+    const vec3 to_eye = perspective ? -normalize(dmat3(prepared.box.world_from_texture) * ray.direction)
+                                    : -prepared.view.forward;
+    const real delta = prepared.spacing;
+    const auto first = static_cast<std::int64_t>(this->first_sample(interval.x, delta));
+    const auto last = static_cast<std::int64_t>(this->last_sample(interval.y, delta));
+    const real stop = prepared.scene.render.mode == Mode::dvr ? prepared.scene.render.early_termination : 2;
+    for (std::int64_t k = first; k <= last; ++k) {
+      gathered =
+          gather(gathered, ray.origin + ((static_cast<real>(k) + 0.5) * delta) * ray.direction, to_eye);
+      if (stop < 1 && gathered.w >= stop)
+        break;
+    }
+    if (!mip)
+      return gathered;
+    if (gathered.w == 0)
+      return vec4(0);
+    const vec4 color = evaluate(prepared.transfer, gathered.x);
+    return this->associated(vec3(color), color.w);
+  }
+};
+
+SharedFunctions::RayFrame shared_frame(const PreparedScene& prepared) {
+  const RayFrameValues values = ray_frame(prepared);
+  return {values.center,     values.forward,     values.right, values.up,
+          values.half_width, values.half_height, values.anchor};
+}
+
+template <class T>
+void trace_all(const PreparedScene& prepared, Image& image, const Progress& progress) {
+  const View& view = prepared.view;
+  const SharedFunctions::RayFrame frame = shared_frame(prepared);
+  std::atomic<int> done = 0;
+  std::mutex reporting;
+  tbb::parallel_for(0, view.height, [&](int y) {
+    Tracer<T> tracer(prepared);
+    for (int x = 0; x < view.width; ++x) {
+      const vec4 color = tracer.trace(frame, view.projection == Projection::perspective,
+                                      2 * (x + 0.5) / view.width - 1, 1 - 2 * (y + 0.5) / view.height);
+      for (int c = 0; c < 4; ++c)
+        channel(image, x, y, c) = static_cast<float>(color[c]);
+    }
+    const int rows = ++done;
+    if (progress.advance && rows % 16 == 0) {
+      const std::lock_guard lock(reporting);
+      report_progress(progress, "draw", static_cast<double>(rows) / view.height);
+    }
+  });
+}
+
+} // namespace
+
+Image render_reference(const PreparedScene& prepared, const Progress& progress) {
+  check_sample_count(prepared);
+  Image image = make_image(prepared.view.width, prepared.view.height);
+  visit_scalar_type(prepared.volume.type, [&](auto* tag) {
+    trace_all<std::remove_pointer_t<decltype(tag)>>(prepared, image, progress);
+  });
+  return image;
+}
+
+} // namespace slicelens

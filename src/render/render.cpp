@@ -1,0 +1,141 @@
+#include "render/render.h"
+
+#include "core/errors.h"
+#include "gl/timer.h"
+#include "render/rays.h"
+#include "render/reference.h"
+#include "render/slices.h"
+#include "scene/names.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace slicelens {
+
+namespace {
+
+/// Seconds since the last call.
+class Stopwatch {
+public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return seconds;
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+GLenum format_of(Target target) {
+  switch (target) {
+  case Target::rgba8:
+    return GL_RGBA8;
+  case Target::rgba16f:
+    return GL_RGBA16F;
+  case Target::rgba32f:
+    break;
+  }
+  return GL_RGBA32F;
+}
+
+/// Draws with `draw` between the marks of a timer query.
+template <class Draw>
+std::optional<double> timed_draw(const gl::Functions& gl, Draw draw) {
+  gl::TimerQuery query(gl);
+  query.begin();
+  draw();
+  gl::finish(gl);
+  query.end();
+  const auto nanoseconds = query.result_nanoseconds();
+  return nanoseconds ? std::optional<double>(static_cast<double>(*nanoseconds) * 1e-9) : std::nullopt;
+}
+
+void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Progress& progress,
+                   RenderResult& result) {
+  const gl::Functions& gl = context.functions();
+  const RenderSettings& settings = prepared.scene.render;
+  Stopwatch watch;
+  const GpuScene scene = upload(gl, prepared, progress);
+  const gl::Target target =
+      gl::make_target(gl, prepared.view.width, prepared.view.height, format_of(settings.target));
+  gl::finish(gl);
+  result.times.upload = watch.lap();
+  if (settings.pipeline == Pipeline::slices) {
+    SliceRenderer renderer(gl, prepared);
+    result.times.compile = watch.lap();
+    renderer.slice(prepared);
+    result.times.slice = watch.lap();
+    result.times.gpu_draw = timed_draw(gl, [&] { renderer.draw(prepared, scene, target, progress); });
+    result.slices = renderer.slice_count();
+  } else {
+    RayRenderer renderer(gl, prepared);
+    result.times.compile = watch.lap();
+    result.times.gpu_draw = timed_draw(gl, [&] { renderer.draw(prepared, scene, target, progress); });
+  }
+  result.times.draw = watch.lap();
+  result.image = make_image(target.width, target.height);
+  result.image.pixels = gl::read_pixels(gl, target);
+  result.times.read = watch.lap();
+  result.renderer = context.info().renderer;
+  result.version = context.info().version;
+  result.context = context.info().kind;
+  result.texture = word(scene.format);
+  result.texture_bytes = scene.bytes;
+}
+
+} // namespace
+
+gl::Context open_context_for(const Scene& scene) {
+  switch (scene.render.context) {
+  case ContextName::osmesa:
+    return gl::open_context(gl::ContextKind::osmesa);
+  case ContextName::egl:
+    return gl::open_context(gl::ContextKind::egl);
+  case ContextName::window:
+    return gl::open_context(gl::ContextKind::window);
+  case ContextName::automatic:
+    break;
+  }
+  return gl::open_context(gl::ContextKind::automatic);
+}
+
+RenderResult render(const PreparedScene& prepared, gl::Context* context, const Progress& progress) {
+  RenderResult result;
+  if (prepared.scene.render.pipeline == Pipeline::reference) {
+    Stopwatch watch;
+    result.image = render_reference(prepared, progress);
+    result.times.draw = watch.lap();
+    result.renderer = "CPU, double precision";
+  } else {
+    if (context == nullptr)
+      throw GraphicsError("pipeline '" + word(prepared.scene.render.pipeline) + "' needs a graphics context");
+    render_on_gpu(prepared, *context, progress, result);
+  }
+  if (prepared.scene.render.mode == Mode::xray)
+    show_line_integrals(result.image, prepared.xray_scale);
+  put_over_background(result.image, prepared.scene.render.background);
+  return result;
+}
+
+void put_over_background(Image& image, const glm::dvec4& background) {
+  for (std::size_t i = 0; i + 3 < image.pixels.size(); i += 4) {
+    const double through = (1.0 - static_cast<double>(image.pixels[i + 3])) * background.a;
+    for (int c = 0; c < 3; ++c) {
+      float& value = image.pixels[i + static_cast<std::size_t>(c)];
+      value = static_cast<float>(static_cast<double>(value) + through * background[c]);
+    }
+    image.pixels[i + 3] = static_cast<float>(static_cast<double>(image.pixels[i + 3]) + through);
+  }
+}
+
+void show_line_integrals(Image& image, double scale) {
+  for (std::size_t i = 0; i + 3 < image.pixels.size(); i += 4) {
+    const float grey = static_cast<float>(static_cast<double>(image.pixels[i]) * scale);
+    image.pixels[i] = image.pixels[i + 1] = image.pixels[i + 2] = grey;
+    image.pixels[i + 3] = std::min(1.0F, grey);
+  }
+}
+
+} // namespace slicelens

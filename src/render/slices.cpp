@@ -1,0 +1,162 @@
+#include "render/slices.h"
+
+#include "gl/check.h"
+#include "gl/state.h"
+#include "gl/timer.h"
+#include "render/shaders.h"
+#include "render/uniforms.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace slicelens {
+
+namespace {
+
+/// Depth is not used; near and far need only hold the box.
+glm::dmat4 clip_from_texture(const PreparedScene& prepared) {
+  const double middle = depth(prepared.view, center(prepared.box));
+  const double radius = bounding_radius(prepared.box);
+  double near = middle - 1.01 * radius;
+  const double far = std::max(middle + 1.01 * radius, near + radius);
+  if (prepared.view.projection == Projection::perspective)
+    near = std::max(near, 1e-6 * far);
+  return clip_from_world(prepared.view, near, far) * prepared.box.world_from_texture;
+}
+
+/// Maps of the value to [0,1] and back, for targets that hold no more.
+glm::vec2 unit_from_value(const Volume& volume) {
+  const double range = volume.max > volume.min ? volume.max - volume.min : 1;
+  return {1 / range, -volume.min / range};
+}
+glm::vec2 value_from_unit(const Volume& volume) {
+  return {volume.max > volume.min ? volume.max - volume.min : 1, volume.min};
+}
+
+void set_blending(const gl::Functions& gl, const RenderSettings& render) {
+  gl.Enable(GL_BLEND);
+  gl.BlendEquation(render.mode == Mode::mip ? GL_MAX : GL_FUNC_ADD);
+  if (render.mode == Mode::xray) {
+    gl.BlendFunc(GL_ONE, GL_ONE);
+  } else if (render.order == Order::back_to_front) {
+    gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  } else {
+    gl.BlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+  }
+}
+
+} // namespace
+
+SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
+  std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "slices.vert", {});
+  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "slices.frag", common_macros(prepared));
+  stages.insert(stages.end(), fragment.begin(), fragment.end());
+  program_ = gl::make_program(gl, stages);
+  vertex_array_ = gl::make_vertex_array(gl);
+  no_vertices_ = gl::make_vertex_array(gl);
+  if (prepared.scene.render.mode == Mode::mip) {
+    std::vector<gl::ShaderSource> second = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});
+    const auto classify = shader_stage(GL_FRAGMENT_SHADER, "classify_maximum.frag", {});
+    second.insert(second.end(), classify.begin(), classify.end());
+    classify_program_ = gl::make_program(gl, second);
+  }
+}
+
+void SliceRenderer::slice(const PreparedScene& prepared) {
+  SliceRequest request;
+  request.box = prepared.box;
+  request.view = prepared.view;
+  request.spacing = prepared.spacing;
+  request.order = prepared.scene.render.order == Order::front_to_back ? SliceOrder::front_to_back
+                                                                      : SliceOrder::back_to_front;
+  request.clip = prepared.clip;
+  stack_ = make_slice_stack(request);
+
+  std::vector<glm::vec3> corners(stack_.corners.begin(), stack_.corners.end());
+  std::vector<std::uint32_t> indices;
+  index_ends_.clear();
+  for (const Slice& slice : stack_.slices) {
+    for (std::uint32_t i = 2; i < slice.count; ++i) {
+      indices.insert(indices.end(), {slice.first, slice.first + i - 1, slice.first + i});
+    }
+    index_ends_.push_back(indices.size());
+  }
+
+  const gl::StateGuard guard(*gl_);
+  gl_->BindVertexArray(vertex_array_.name());
+  corners_ = gl::make_buffer(*gl_, GL_ARRAY_BUFFER, std::as_bytes(std::span(corners)));
+  const auto location = static_cast<GLuint>(gl_->GetAttribLocation(program_.name(), "corner"));
+  gl_->EnableVertexAttribArray(location);
+  gl_->VertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+  indices_ = gl::make_buffer(*gl_, GL_ELEMENT_ARRAY_BUFFER, std::as_bytes(std::span(indices)));
+}
+
+void SliceRenderer::draw_stack(const Progress& progress) {
+  const std::size_t count = index_ends_.size();
+  // One call draws the whole stack in order. Only where somebody watches it is cut into steps.
+  const std::size_t step =
+      progress.advance ? std::max<std::size_t>(1, count / 50) : std::max<std::size_t>(1, count);
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < count; i += step) {
+    const std::size_t end = index_ends_[std::min(count, i + step) - 1];
+    gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(end - begin), GL_UNSIGNED_INT,
+                      reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
+    begin = end;
+    if (progress.advance) {
+      gl::finish(*gl_);
+      report_progress(progress, "draw",
+                      static_cast<double>(std::min(count, i + step)) / static_cast<double>(count));
+    }
+  }
+}
+
+void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target,
+                         const Progress& progress) {
+  const gl::Functions& gl = *gl_;
+  const gl::StateGuard guard(gl);
+  const RenderSettings& render = prepared.scene.render;
+  const View& view = prepared.view;
+  if (render.mode == Mode::mip && (!maxima_ || maxima_->width != target.width ||
+                                   maxima_->height != target.height || maxima_->format != target.format)) {
+    maxima_ = gl::make_target(gl, target.width, target.height, target.format);
+  }
+  gl::bind_target(gl, maxima_ ? *maxima_ : target);
+  gl.Disable(GL_DEPTH_TEST);
+  gl.Disable(GL_CULL_FACE);
+  gl.Disable(GL_DITHER);
+  gl.ClearColor(maxima_ && target.format != GL_RGBA8 ? -1.0F : 0.0F, 0, 0, 0);
+  gl.Clear(GL_COLOR_BUFFER_BIT);
+
+  gl.UseProgram(program_.name());
+  set_common_uniforms(gl, program_, prepared, scene);
+  set_uniform(gl, program_, "clip_from_texture", glm::mat4(clip_from_texture(prepared)));
+  set_uniform(gl, program_, "unit_from_value", unit_from_value(prepared.volume));
+  set_uniform(gl, program_, "eye", glm::vec3(view.eye));
+  set_uniform(gl, program_, "world_from_texture", glm::mat4(prepared.box.world_from_texture));
+  set_uniform(gl, program_, "slope_from_pixel",
+              glm::vec4(2 * half_width(view) / view.width, 2 * view.half_height / view.height,
+                        -half_width(view), -view.half_height));
+  set_blending(gl, render);
+  gl.BindVertexArray(vertex_array_.name());
+  draw_stack(progress);
+  if (maxima_)
+    classify_maxima(prepared, scene, target);
+  gl::check_errors(gl, "drawing the slices");
+}
+
+void SliceRenderer::classify_maxima(const PreparedScene& prepared, const GpuScene& scene,
+                                    const gl::Target& target) {
+  const gl::Functions& gl = *gl_;
+  gl::bind_target(gl, target);
+  gl.Disable(GL_BLEND);
+  gl.UseProgram(classify_program_.name());
+  set_common_uniforms(gl, classify_program_, prepared, scene);
+  gl.ActiveTexture(GL_TEXTURE2);
+  gl.BindTexture(GL_TEXTURE_2D, maxima_->color.name());
+  set_uniform(gl, classify_program_, "maxima", 2);
+  set_uniform(gl, classify_program_, "value_from_unit", value_from_unit(prepared.volume));
+  gl.BindVertexArray(no_vertices_.name());
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+} // namespace slicelens

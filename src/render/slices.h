@@ -1,0 +1,45 @@
+// Pipeline `slices`: a stack of view-aligned polygons, textured, classified and blended (METHODS §0; LaMar
+// §3, Brunet §3).
+#pragma once
+
+#include "gl/target.h"
+#include "render/gpu_scene.h"
+#include "slicing/slice_stack.h"
+
+#include <optional>
+
+namespace slicelens {
+
+/// Programs and buffers of the slice pipeline for one prepared scene.
+class SliceRenderer {
+public:
+  /// Compiles the programs. Throws GraphicsError.
+  SliceRenderer(const gl::Functions& gl, const PreparedScene& prepared);
+
+  /// Cuts the stack for the scene's view and hands its polygons to the driver.
+  void slice(const PreparedScene& prepared);
+
+  /// Draws the stack into `target`: associated colour over transparent black. State is restored. Reports the
+  /// stage "draw" when `progress` listens, at the price of waiting for the driver a few dozen times.
+  void draw(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target,
+            const Progress& progress);
+
+  std::size_t slice_count() const { return stack_.slices.size(); }
+
+private:
+  void draw_stack(const Progress& progress);
+  void classify_maxima(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target);
+
+  const gl::Functions* gl_;
+  gl::Program program_;
+  gl::Program classify_program_;     ///< MIP only
+  std::optional<gl::Target> maxima_; ///< MIP only
+  gl::VertexArray vertex_array_;
+  gl::VertexArray no_vertices_;
+  gl::Buffer corners_;
+  gl::Buffer indices_;
+  SliceStack stack_;
+  std::vector<std::size_t> index_ends_; ///< of each slice in the index buffer
+};
+
+} // namespace slicelens

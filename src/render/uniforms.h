@@ -1,0 +1,19 @@
+// Uniforms that the GPU pipelines share.
+#pragma once
+
+#include "gl/program.h"
+#include "render/gpu_scene.h"
+
+#include <string>
+#include <vector>
+
+namespace slicelens {
+
+/// Macros for sampling, mode and shading, as shaders/ names them.
+std::vector<std::string> common_macros(const PreparedScene& prepared);
+
+/// Binds both textures (units 0 and 1) and sets what shaders/gpu/*.glsl declares. The program must be in use.
+void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
+                         const GpuScene& scene);
+
+} // namespace slicelens
