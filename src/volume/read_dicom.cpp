@@ -1,0 +1,263 @@
+#include "core/errors.h"
+#include "core/text.h"
+#include "volume/dicom_series.h"
+#include "volume/file_checks.h"
+#include "volume/itk_reading.h"
+#include "volume/readers.h"
+
+#include <gdcmAttribute.h>
+#include <gdcmReader.h>
+#include <itkGDCMImageIO.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace slicelens {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string text_at(const gdcm::DataSet& data, std::uint16_t group, std::uint16_t element) {
+  const gdcm::Tag tag(group, element);
+  if (!data.FindDataElement(tag))
+    return {};
+  const gdcm::ByteValue* value = data.GetDataElement(tag).GetByteValue();
+  if (value == nullptr)
+    return {};
+  std::string text(value->GetPointer(), value->GetLength());
+  text.erase(std::remove(text.begin(), text.end(), '\0'), text.end());
+  return trimmed(text);
+}
+
+/// Backslash-separated numbers of a text element; empty when one is none.
+std::vector<double> numbers_at(const gdcm::DataSet& data, std::uint16_t group, std::uint16_t element) {
+  std::string text = text_at(data, group, element);
+  std::replace(text.begin(), text.end(), '\\', ' ');
+  try {
+    return numbers_of({}, "number", text);
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+/// An unsigned short in the file's own byte order, which GDCM has turned to the machine's.
+template <std::uint16_t group, std::uint16_t element>
+std::size_t short_at(const gdcm::DataSet& data) {
+  if (!data.FindDataElement(gdcm::Tag(group, element)))
+    return 0;
+  gdcm::Attribute<group, element> attribute;
+  attribute.SetFromDataSet(data);
+  return static_cast<std::size_t>(attribute.GetValue());
+}
+
+bool all_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// Scalar types and the range each holds exactly, smallest first.
+ScalarType type_for_both(ScalarType a, ScalarType b) {
+  const auto range = [](ScalarType type) {
+    return visit_scalar_type(type, [](auto* tag) {
+      using T = std::remove_pointer_t<decltype(tag)>;
+      return std::pair(static_cast<double>(std::numeric_limits<T>::lowest()),
+                       static_cast<double>(std::numeric_limits<T>::max()));
+    });
+  };
+  const bool real =
+      a == ScalarType::f32 || a == ScalarType::f64 || b == ScalarType::f32 || b == ScalarType::f64;
+  const auto [a_low, a_high] = range(a);
+  const auto [b_low, b_high] = range(b);
+  if (!real) {
+    for (const ScalarType type : {ScalarType::u8, ScalarType::i8, ScalarType::u16, ScalarType::i16,
+                                  ScalarType::u32, ScalarType::i32}) {
+      const auto [low, high] = range(type);
+      if (low <= std::min(a_low, b_low) && high >= std::max(a_high, b_high))
+        return type;
+    }
+    return ScalarType::f64;
+  }
+  const bool wide = size_of(a) > 4 || size_of(b) > 4 || a == ScalarType::i32 || b == ScalarType::i32 ||
+                    a == ScalarType::u32 || b == ScalarType::u32;
+  return wide ? ScalarType::f64 : ScalarType::f32;
+}
+
+std::vector<std::byte> converted(const std::vector<std::byte>& scalars, ScalarType from, ScalarType to) {
+  std::vector<std::byte> result(checked_product(scalars.size() / size_of(from), size_of(to), "volume"));
+  visit_scalar_type(from, [&](auto* from_tag) {
+    using From = std::remove_pointer_t<decltype(from_tag)>;
+    const From* in = reinterpret_cast<const From*>(scalars.data());
+    visit_scalar_type(to, [&](auto* to_tag) {
+      using To = std::remove_pointer_t<decltype(to_tag)>;
+      To* out = reinterpret_cast<To*>(result.data());
+      for (std::size_t i = 0; i < scalars.size() / sizeof(From); ++i)
+        out[i] = static_cast<To>(in[i]);
+    });
+  });
+  return result;
+}
+
+/// Reads one file's picture (or pictures) after the check that it is what the first one was.
+Volume read_one(const DicomFile& slice, const Progress& progress) {
+  Volume image;
+  with_libraries(slice.file, progress, [&] {
+    const auto io = itk::GDCMImageIO::New();
+    io->SetFileName(slice.file.string());
+    io->ReadImageInformation();
+    image = header_of(*io, slice.file);
+    if (image.dims[0] != slice.columns || image.dims[1] != slice.rows)
+      throw FileError(slice.file.string(),
+                      "its Rows and Columns do not fit its pixel data; the file is damaged");
+    read_frame(*io, slice.file, 0, image);
+  });
+  return image;
+}
+
+void place_slice(Volume& volume, std::size_t k, Volume& slice, const fs::path& file) {
+  if (slice.components != volume.components)
+    throw FileError(file.string(), "has " + std::to_string(slice.components) +
+                                       " components but the slices before have " +
+                                       std::to_string(volume.components));
+  if (slice.type != volume.type) {
+    const ScalarType common = type_for_both(volume.type, slice.type);
+    if (common != volume.type) {
+      volume.voxels = converted(volume.voxels, volume.type, common);
+      volume.type = common;
+    }
+    if (common != slice.type)
+      slice.voxels = converted(slice.voxels, slice.type, common);
+  }
+  std::copy(slice.voxels.begin(), slice.voxels.end(),
+            volume.voxels.begin() + static_cast<std::ptrdiff_t>(k * slice.voxels.size()));
+}
+
+std::vector<DicomFile> scan_all(const std::vector<fs::path>& candidates, const fs::path& named,
+                                const Progress& progress) {
+  std::vector<DicomFile> files;
+  for (const fs::path& candidate : candidates) {
+    try {
+      files.push_back(scan_dicom(candidate, progress));
+    } catch (const FileError& error) {
+      if (candidate == named || candidates.size() == 1)
+        throw;
+      report_warning(progress, std::string(error.what()) + " (left out)");
+    }
+  }
+  return files;
+}
+
+std::string name_of_source(const VolumeSource& source) { return source.file.string(); }
+
+DicomStack stack_for(const std::vector<fs::path>& candidates, const fs::path& named,
+                     const VolumeSource& source, const Progress& progress) {
+  return stack_of(scan_all(candidates, named, progress), named, name_of_source(source), source.series,
+                  source.frame, progress);
+}
+
+} // namespace
+
+bool is_dicom(const fs::path& path) {
+  const std::string head = head_of(path, 132);
+  if (head.size() == 132 && head.compare(128, 4, "DICM") == 0)
+    return true;
+  // Without the preamble only a file whose name suggests DICOM and which starts with a low group is tried.
+  const std::string extension = lower(path.extension().string());
+  const bool named = extension.empty() || extension == ".dcm" || extension == ".ima";
+  return named && head.size() >= 8 && (head[0] == 2 || head[0] == 8) && head[1] == 0 && head[3] == 0;
+}
+
+DicomFile scan_dicom(const fs::path& path, const Progress& progress) {
+  const std::uintmax_t bytes = require_file(path);
+  DicomFile file;
+  file.file = path;
+  with_libraries(path, progress, [&] {
+    gdcm::Reader reader;
+    reader.SetFileName(path.c_str());
+    if (!reader.ReadUpToTag(gdcm::Tag(0x0028, 0x1055)))
+      throw FileError(path.string(), "is no DICOM file that can be read; it is damaged or truncated");
+    const gdcm::DataSet& data = reader.GetFile().GetDataSet();
+    file.series = text_at(data, 0x0020, 0x000e);
+    file.description = one_line(text_at(data, 0x0008, 0x103e));
+    file.instance = text_at(data, 0x0008, 0x0018);
+    file.mosaic = text_at(data, 0x0008, 0x0008).find("MOSAIC") != std::string::npos;
+    file.rows = short_at<0x0028, 0x0010>(data);
+    file.columns = short_at<0x0028, 0x0011>(data);
+    if (file.rows == 0 || file.columns == 0)
+      throw FileError(path.string(), "holds no image (no Rows and Columns); name a DICOM image");
+    const auto whole = [&](std::uint16_t group, std::uint16_t element, long long other) {
+      const std::vector<double> values = numbers_at(data, group, element);
+      return values.empty() || !(std::abs(values[0]) < 1e15) ? other : static_cast<long long>(values[0]);
+    };
+    const long long frames = whole(0x0028, 0x0008, 1);
+    if (frames < 1)
+      throw FileError(path.string(),
+                      "'Number of Frames' is " + std::to_string(frames) + "; at least 1 is needed");
+    file.frames = static_cast<std::size_t>(frames);
+    file.temporal = whole(0x0020, 0x0100, 0);
+    file.acquisition = whole(0x0020, 0x0012, 0);
+    file.number = whole(0x0020, 0x0013, 0);
+    const std::vector<double> position = numbers_at(data, 0x0020, 0x0032);
+    const std::vector<double> axes = numbers_at(data, 0x0020, 0x0037);
+    if (position.size() == 3 && all_finite(position))
+      file.position = glm::dvec3(position[0], position[1], position[2]);
+    if (axes.size() == 6 && all_finite(axes)) {
+      file.axes = glm::dmat2x3(axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]);
+      const glm::dvec3 normal = glm::cross((*file.axes)[0], (*file.axes)[1]);
+      if (glm::length(normal) < 0.5)
+        throw FileError(path.string(), "'Image Orientation (Patient)' holds no two perpendicular directions");
+    }
+    const std::size_t samples = std::max<std::size_t>(1, short_at<0x0028, 0x0002>(data));
+    const std::size_t bits = short_at<0x0028, 0x0100>(data);
+    const gdcm::TransferSyntax& syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
+    const std::uintmax_t claimed =
+        claimed_bytes(path, "Rows, Columns, Number of Frames",
+                      {static_cast<long long>(file.rows), static_cast<long long>(file.columns), frames},
+                      samples * std::max<std::size_t>(1, bits / 8));
+    check_claim(path, "Rows, Columns, Number of Frames", claimed, bytes,
+                syntax.IsEncapsulated() || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian
+                    ? Encoding::codec
+                    : Encoding::raw);
+  });
+  return file;
+}
+
+std::vector<fs::path> dicom_files(const std::vector<fs::path>& candidates, const fs::path& named,
+                                  const VolumeSource& source, const Progress& progress) {
+  std::vector<fs::path> files;
+  for (const DicomFile& slice : stack_for(candidates, named, source, progress).slices)
+    files.push_back(slice.file);
+  return files;
+}
+
+Volume read_dicom(const std::vector<fs::path>& candidates, const fs::path& named, const VolumeSource& source,
+                  const Progress& progress) {
+  const DicomStack stack = stack_for(candidates, named, source, progress);
+  const std::size_t count = stack.slices.size();
+  Volume volume = read_one(stack.slices.front(), progress);
+  volume.format = "DICOM";
+  if (count == 1)
+    return volume;
+  Volume first = volume;
+  const std::size_t slice_bytes = voxel_bytes(first);
+  volume.dims[2] = count;
+  check_memory(source.file, checked_product(slice_bytes, count, source.file.string()));
+  volume.voxels.resize(slice_bytes * count);
+  for (std::size_t k = 1; k < count; ++k) {
+    Volume slice = read_one(stack.slices[k], progress);
+    place_slice(volume, k, slice, stack.slices[k].file);
+    report_progress(progress, "load", static_cast<double>(k + 1) / static_cast<double>(count));
+  }
+  volume.frames = stack.frames;
+  if (stack.spacing) {
+    volume.spacing.z = *stack.spacing;
+    volume.direction[2] = *stack.axis;
+    volume.origin = *stack.slices.front().position;
+  } else {
+    volume.spacing.z = 1;
+  }
+  return volume;
+}
+
+} // namespace slicelens

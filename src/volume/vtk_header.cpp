@@ -1,0 +1,95 @@
+// Legacy VTK files (VTK file formats, "Simple Legacy Formats"): structured points only.
+#include "core/errors.h"
+#include "core/text.h"
+#include "volume/file_checks.h"
+#include "volume/header_scan.h"
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace slicelens {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::uintmax_t scalar_bytes_of(const fs::path& path, const std::string& type) {
+  static const std::map<std::string, std::uintmax_t> sizes = {
+      {"unsigned_char", 1}, {"char", 1},   {"unsigned_short", 2}, {"short", 2},
+      {"unsigned_int", 4},  {"int", 4},    {"unsigned_long", 8},  {"long", 8},
+      {"float", 4},         {"double", 8}, {"vtktypeint64", 8},   {"vtktypeuint64", 8}};
+  const auto found = sizes.find(lower(type));
+  if (found == sizes.end())
+    throw FileError(path.string(), "'SCALARS' has the type '" + one_line(type) +
+                                       "', which is not supported; unsigned_char to double are");
+  return found->second;
+}
+
+void check_distances(const fs::path& path, const std::string& field, const std::string& rest) {
+  const std::vector<double> values = numbers_of(path, field, rest);
+  bool good = values.size() == 3;
+  for (const double value : values)
+    good = good && std::isfinite(value) && (field == "ORIGIN" || value > 0);
+  if (!good)
+    throw FileError(path.string(), "'" + field + " " + one_line(rest) + "' needs three finite numbers" +
+                                       (field == "ORIGIN" ? "" : " above 0"));
+}
+
+} // namespace
+
+HeaderScan scan_vtk(const fs::path& path) {
+  const std::uintmax_t file_bytes = require_file(path);
+  std::istringstream in(head_of(path, 1 << 16));
+  std::string line;
+  std::getline(in, line);
+  if (line.rfind("# vtk DataFile", 0) != 0)
+    throw FileError(path.string(), "does not start with '# vtk DataFile'; it is no legacy VTK file");
+  std::getline(in, line); // the title
+  std::getline(in, line);
+  const std::string format = lower(trimmed(line));
+  if (format != "ascii" && format != "binary")
+    throw FileError(path.string(), "the third line is '" + one_line(line) + "'; ASCII or BINARY is needed");
+
+  std::vector<long long> sizes;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> words = words_of(line);
+    if (words.empty())
+      continue;
+    const std::string word = lower(words[0]);
+    const std::string rest = line.substr(line.find(words[0]) + words[0].size());
+    if (word == "dataset" && (words.size() < 2 || lower(words[1]) != "structured_points"))
+      throw FileError(path.string(), "'" + one_line(line) + "' is not supported; STRUCTURED_POINTS is");
+    if (word == "dimensions")
+      sizes = integers_of(path, "DIMENSIONS", rest);
+    else if (word == "spacing" || word == "aspect_ratio")
+      check_distances(path, "SPACING", rest);
+    else if (word == "origin")
+      check_distances(path, "ORIGIN", rest);
+    else if (word == "cell_data")
+      throw FileError(path.string(), "holds cell data; write the values as point data");
+    else if (word == "vectors" || word == "tensors" || word == "field" || word == "color_scalars" ||
+             word == "normals")
+      throw FileError(path.string(), "'" + one_line(line) + "' is not supported; SCALARS are");
+    else if (word == "scalars") {
+      if (sizes.size() != 3 || words.size() < 3)
+        throw FileError(path.string(), "needs 'DIMENSIONS nx ny nz' before 'SCALARS name type'");
+      const std::uintmax_t scalar = scalar_bytes_of(path, words[2]);
+      std::vector<long long> all_sizes = sizes;
+      if (words.size() > 3) {
+        const auto components = integers_of(path, "SCALARS", words[3]);
+        if (components[0] < 1 || components[0] > 4)
+          throw FileError(path.string(), "'SCALARS' has " + words[3] + " components; 1 to 4 are supported");
+        all_sizes.push_back(components[0]);
+      }
+      const auto at =
+          static_cast<std::uintmax_t>(in.tellg() < 0 ? std::streamoff{0} : std::streamoff(in.tellg()));
+      check_claim(path, "DIMENSIONS", claimed_bytes(path, "DIMENSIONS", all_sizes, scalar), file_bytes - at,
+                  format == "ascii" ? Encoding::text : Encoding::raw, scalar);
+      return {};
+    }
+  }
+  throw FileError(path.string(), "has no 'SCALARS'; a volume needs point data of one scalar kind");
+}
+
+} // namespace slicelens
