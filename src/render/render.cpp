@@ -28,6 +28,11 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+std::string limits_text(const gl::Limits& limits) {
+  return "2D " + std::to_string(limits.texture_size) + ", 3D " + std::to_string(limits.texture_size_3d) + ", texture units " +
+         std::to_string(limits.texture_units) + ", timer bits " + std::to_string(limits.timer_query_bits);
+}
+
 GLenum format_of(Target target) {
   switch (target) {
   case Target::rgba8:
@@ -81,6 +86,7 @@ void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Pr
   result.renderer = context.info().renderer;
   result.version = context.info().version;
   result.context = context.info().kind;
+  result.limits = limits_text(context.info().limits);
   result.texture = word(scene.format);
   result.texture_bytes = scene.bytes;
 }

@@ -26,6 +26,7 @@ struct RenderResult {
   RenderTimes times;
   std::string renderer; ///< GL_RENDERER, or "CPU, double precision" for the reference
   std::string version;  ///< GL_VERSION, empty for the reference
+  std::string limits;             ///< what the driver allows, one line; empty for the reference
   std::string context;  ///< kind of context
   std::string texture;  ///< what holds the volume: "r16", empty for the reference
   std::size_t texture_bytes = 0;

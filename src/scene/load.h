@@ -1,0 +1,31 @@
+// From a scene's sections `volume` and `transfer` to the data they name.
+#pragma once
+
+#include "core/progress.h"
+#include "scene/scene.h"
+#include "volume/read.h"
+#include "volume/transfer.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace slicelens {
+
+/// The file that `volume.file` names: itself when absolute, else the first of `folders` it exists in, else
+/// relative to the first. Throws FileError naming the places when it exists in none of them.
+std::filesystem::path resolve_file(const std::string& file,
+                                   const std::vector<std::filesystem::path>& folders);
+
+/// The reader's request for a scene's volume; `settings.file` must be set.
+VolumeSource source_of(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders);
+
+/// Reads the file or makes the phantom. The result has one component: several need `volume.component`, or a
+/// UsageError says so.
+Volume load_volume(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders,
+                   const Progress& progress);
+
+/// The transfer function of the scene: its points, its preset, or without either the automatic one for this
+/// volume (the phantom's own preset for phantoms).
+TransferFunction transfer_of(const Scene& scene, const Volume& volume);
+
+} // namespace slicelens

@@ -1,0 +1,50 @@
+// What users name on the command line (scenes, volumes, pictures), turned into scenes and prepared data.
+#pragma once
+
+#include "core/progress.h"
+#include "render/prepare.h"
+#include "render/render.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slicelens::cli {
+
+/// A scene and where its relative paths count from.
+struct SceneInput {
+  Scene scene;
+  std::vector<std::filesystem::path> folders; ///< places a relative volume.file is looked for in, in order
+  std::string expected_sha256;                ///< of the volume file, when the scene comes from a picture
+  std::string source;                         ///< what the user named
+};
+
+enum class InputKind { scene, picture, volume };
+
+/// By extension: .json is a scene; .png, .exr, .tif … that exist as files are pictures; everything else is a volume.
+InputKind kind_of(const std::string& input);
+
+/// The scene of a scene file, of a picture written by slicelens, or of a volume with every other key at its default.
+SceneInput scene_input(const std::string& input, const std::vector<std::string>& set);
+
+/// A scene text that is not a file, named `source` in messages.
+SceneInput scene_text_input(const std::string& text, const std::string& source, const std::vector<std::string>& set);
+
+/// Reads or makes the volume and works everything out. `sha256` receives the hash of the volume's files (empty for
+/// phantoms). Throws FileError when the hash is not the expected one.
+PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256 = nullptr);
+
+/// Opens the context that the scene asks for, where it needs one, and renders. `context` keeps it open for the next scene
+/// that asks for the same kind.
+struct OpenContext {
+  std::optional<gl::Context> context;
+  ContextName name = ContextName::automatic;
+};
+RenderResult render_with(OpenContext& context, const PreparedScene& prepared, const Progress& progress);
+
+/// Stores scene, version, driver and hash with the picture.
+void add_metadata(RenderResult& result, const Scene& scene, const std::string& sha256);
+
+} // namespace slicelens::cli

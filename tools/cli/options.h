@@ -1,0 +1,62 @@
+// What the command line asks for, as plain values. main.cpp fills them; each command takes one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slicelens::cli {
+
+struct RenderOptions {
+  std::string input;
+  std::string output;
+  std::vector<std::string> set;
+  std::string depth; ///< "8", "16", "half", "float" or empty
+  bool print_scene = false;
+  bool verbose = false;
+};
+
+struct CompareOptions {
+  std::string a;
+  std::string b; ///< empty: a again
+  std::string folder;
+  std::vector<std::string> set;
+  std::vector<std::string> set_a;
+  std::vector<std::string> set_b;
+  double factor = 8;
+  bool verbose = false;
+};
+
+struct InfoOptions {
+  std::string input;
+  std::vector<std::string> set;
+  bool json = false;
+};
+
+struct PhantomOptions {
+  std::string name;
+  std::string output;
+  std::vector<std::size_t> size;
+  bool compress = false;
+};
+
+struct ListOptions {
+  std::string what;
+};
+
+struct GalleryOptions {
+  std::vector<std::string> inputs; ///< scenes or volumes; empty: the embedded gallery
+  std::string folder = "out/gallery";
+  std::vector<std::string> set;
+};
+
+// Each runs one command and returns; results go to stdout and files, the rest to stderr. They throw the errors of
+// core/errors.h.
+void run_render(const RenderOptions& options);
+void run_compare(const CompareOptions& options);
+void run_info(const InfoOptions& options);
+void run_phantom(const PhantomOptions& options);
+void run_list(const ListOptions& options);
+void run_gallery(const GalleryOptions& options);
+
+} // namespace slicelens::cli
