@@ -52,8 +52,11 @@ double raw_bytes(std::string_view header) {
 void check_png(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::array<char, 8> start{};
-  if (!in.read(start.data(), 8) || std::string_view(start.data(), 8) != signature)
+  const bool complete = static_cast<bool>(in.read(start.data(), 8));
+  if (std::string_view(start.data() + 1, 3) != signature.substr(1, 3))
     return;
+  if (!complete || std::string_view(start.data(), 8) != signature)
+    throw FileError(path, "is damaged: the PNG signature is not right (was it copied as text?)");
   const auto table = crc_table();
   std::vector<char> buffer(std::size_t{1} << 16);
   double pixels_need = 0;
