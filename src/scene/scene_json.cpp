@@ -313,6 +313,7 @@ const std::vector<Alternatives>& alternatives() {
 }
 
 void remove_alternatives(Json& section, const std::string& section_name, const std::string& key) {
+  if (!section.is_object()) return; // nothing set in it yet
   for (const Alternatives& group : alternatives()) {
     if (section_name != group.section)
       continue;
@@ -324,8 +325,7 @@ void remove_alternatives(Json& section, const std::string& section_name, const s
     for (const auto& member : group.members) {
       if (has(member))
         continue;
-      for (const char* name : member)
-        section.erase(name);
+      for (const char* name : member) section.erase(name);
     }
   }
 }

@@ -98,6 +98,7 @@ TEST_CASE("changes by --set reach every key and one alternative removes the othe
   CHECK(scene.render.size[1] == 9);
   CHECK(scene_from_json(R"({"volume":{"file":"a"}})", "s", {parse_assignment("volume.phantom=ball")})
             .volume.phantom == "ball");
+  CHECK(scene_from_json("{}", "s", {parse_assignment("volume.file=a")}).volume.file == "a"); // a section not yet there
   CHECK(contains(refusal("{}", {parse_assignment("render.spacng=1")}), "did you mean render.spacing?"));
   CHECK(contains(refusal("{}", {parse_assignment("title.x.y=1"), parse_assignment("title.x=1")}), "title"));
   CHECK_THROWS_AS(parse_assignment("spacing"), UsageError);

@@ -1,9 +1,10 @@
 #include "console.h"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <unistd.h>
 
 namespace slicelens::cli {
 
@@ -18,13 +19,15 @@ struct Bar {
 
 void draw_bar(Bar& bar, const std::string& stage, double done) {
   const auto now = Clock::now();
-  if (now - bar.start < std::chrono::milliseconds(500)) return;
-  if (now - bar.shown < std::chrono::milliseconds(100) && done < 1) return;
+  if (now - bar.start < std::chrono::milliseconds(500))
+    return;
+  if (now - bar.shown < std::chrono::milliseconds(100) && done < 1)
+    return;
   bar.shown = now;
   constexpr int width = 30;
   const int full = static_cast<int>(done * width + 0.5);
-  std::fprintf(stderr, "\r\033[K%-8s [%.*s%.*s] %3.0f %%", stage.c_str(), full, "##############################", width - full,
-               "..............................", done * 100);
+  std::fprintf(stderr, "\r\033[K%-8s [%.*s%.*s] %3.0f %%", stage.c_str(), full,
+               "##############################", width - full, "..............................", done * 100);
   std::fflush(stderr);
 }
 
@@ -44,7 +47,8 @@ Progress console_progress() {
 }
 
 void end_progress() {
-  if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r\033[K");
+  if (::isatty(STDERR_FILENO) != 0)
+    std::fprintf(stderr, "\r\033[K");
 }
 
 } // namespace slicelens::cli

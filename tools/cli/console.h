@@ -5,7 +5,8 @@
 
 namespace slicelens::cli {
 
-/// Warnings as lines "slicelens: warning: …". On a terminal also a bar, shown once work has lasted half a second.
+/// Warnings as lines "slicelens: warning: …". On a terminal also a bar, shown once work has lasted half a
+/// second.
 Progress console_progress();
 
 /// Removes the bar before other output.

@@ -2,7 +2,6 @@
 #include "inputs.h"
 #include "json_output.h"
 #include "options.h"
-
 #include "scene/load.h"
 #include "volume/read.h"
 
@@ -20,14 +19,19 @@ void run_info(const InfoOptions& options) {
     std::printf("%s\n", volume_json(volume).c_str());
     return;
   }
-  const auto vector = [](const char* name, const glm::dvec3& v) { std::printf("%-10s %.9g %.9g %.9g\n", name, v.x, v.y, v.z); };
+  const auto vector = [](const char* name, const glm::dvec3& v) {
+    std::printf("%-10s %.9g %.9g %.9g\n", name, v.x, v.y, v.z);
+  };
   std::printf("%-10s %zu %zu %zu\n", "dims", volume.dims[0], volume.dims[1], volume.dims[2]);
   vector("spacing", volume.spacing);
   vector("origin", volume.origin);
-  for (int axis = 0; axis < 3; ++axis) vector(axis == 0 ? "direction" : "", volume.direction[axis]);
-  std::printf("%-10s %s\n%-10s %.9g %.9g\n%-10s %.9g\n%-10s %d\n%-10s %zu\n%-10s %s\n", "type", name_of(volume.type).c_str(), "range", volume.min,
-              volume.max, "mean", volume.mean, "components", volume.components, "frames", volume.frames, "format", volume.format.c_str());
-  if (volume.non_finite > 0) std::printf("%-10s %zu\n", "non-finite", volume.non_finite);
+  for (int axis = 0; axis < 3; ++axis)
+    vector(axis == 0 ? "direction" : "", volume.direction[axis]);
+  std::printf("%-10s %s\n%-10s %.9g %.9g\n%-10s %.9g\n%-10s %d\n%-10s %zu\n%-10s %s\n", "type",
+              name_of(volume.type).c_str(), "range", volume.min, volume.max, "mean", volume.mean,
+              "components", volume.components, "frames", volume.frames, "format", volume.format.c_str());
+  if (volume.non_finite > 0)
+    std::printf("%-10s %zu\n", "non-finite", volume.non_finite);
 }
 
 } // namespace slicelens::cli

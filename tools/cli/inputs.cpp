@@ -18,23 +18,29 @@ namespace {
 
 std::vector<KeyValue> assignments(const std::vector<std::string>& set) {
   std::vector<KeyValue> changes;
-  for (const std::string& text : set) changes.push_back(parse_assignment(text));
+  for (const std::string& text : set)
+    changes.push_back(parse_assignment(text));
   return changes;
 }
 
-/// A path given on the command line counts from the current folder, one in a file from that file's folder; the other
-/// place is tried second.
+/// A path given on the command line counts from the current folder, one in a file from that file's folder;
+/// the other place is tried second.
 std::vector<fs::path> folders_for(const fs::path& home, const std::vector<KeyValue>& changes) {
-  const bool from_command = std::any_of(changes.begin(), changes.end(), [](const KeyValue& c) { return c.key == "volume.file"; });
-  if (home.empty() || home == ".") return {"."};
-  if (from_command) return {".", home};
+  const bool from_command =
+      std::any_of(changes.begin(), changes.end(), [](const KeyValue& c) { return c.key == "volume.file"; });
+  if (home.empty() || home == ".")
+    return {"."};
+  if (from_command)
+    return {".", home};
   return {home, "."};
 }
 
 void require_hash(const SceneInput& input, const std::string& sha256) {
-  if (input.expected_sha256.empty() || sha256.empty() || input.expected_sha256 == sha256) return;
-  throw FileError(*input.scene.volume.file, "is not the volume that " + input.source + " was rendered from (SHA-256 " +
-                                                sha256.substr(0, 12) + "…, then " + input.expected_sha256.substr(0, 12) +
+  if (input.expected_sha256.empty() || sha256.empty() || input.expected_sha256 == sha256)
+    return;
+  throw FileError(*input.scene.volume.file, "is not the volume that " + input.source +
+                                                " was rendered from (SHA-256 " + sha256.substr(0, 12) +
+                                                "…, then " + input.expected_sha256.substr(0, 12) +
                                                 "…); name the right one with --set volume.file=…");
 }
 
@@ -42,14 +48,18 @@ void require_hash(const SceneInput& input, const std::string& sha256) {
 
 InputKind kind_of(const std::string& input) {
   const std::string extension = lower(fs::path(input).extension().string());
-  if (extension == ".json") return InputKind::scene;
+  if (extension == ".json")
+    return InputKind::scene;
   static const std::vector<std::string> pictures = {".png", ".exr", ".tif", ".tiff", ".jpg", ".jpeg"};
   std::error_code error;
-  if (std::find(pictures.begin(), pictures.end(), extension) != pictures.end() && fs::is_regular_file(input, error)) return InputKind::picture;
+  if (std::find(pictures.begin(), pictures.end(), extension) != pictures.end() &&
+      fs::is_regular_file(input, error))
+    return InputKind::picture;
   return InputKind::volume;
 }
 
-SceneInput scene_text_input(const std::string& text, const std::string& source, const std::vector<std::string>& set) {
+SceneInput scene_text_input(const std::string& text, const std::string& source,
+                            const std::vector<std::string>& set) {
   const std::vector<KeyValue> changes = assignments(set);
   return {scene_from_json(text, source, changes), folders_for("", changes), "", source};
 }
@@ -64,12 +74,15 @@ SceneInput scene_input(const std::string& input, const std::vector<std::string>&
     const auto metadata = read_metadata(input);
     const auto scene = metadata.find("slicelens:scene");
     if (scene == metadata.end()) {
-      throw UsageError(input + ": this picture holds no Slicelens scene; to render an image stack give its folder or a pattern such as slice_*.png");
+      throw UsageError(input + ": this picture holds no Slicelens scene; to render an image stack give its "
+                               "folder or a pattern such as slice_*.png");
     }
     SceneInput result{scene_from_json(scene->second, input, changes), folders_for(home, changes), "", input};
     const auto hash = metadata.find("slicelens:volume_sha256");
-    const bool other_volume = std::any_of(changes.begin(), changes.end(), [](const KeyValue& c) { return c.key.rfind("volume", 0) == 0; });
-    if (hash != metadata.end() && !other_volume) result.expected_sha256 = hash->second;
+    const bool other_volume = std::any_of(changes.begin(), changes.end(),
+                                          [](const KeyValue& c) { return c.key.rfind("volume", 0) == 0; });
+    if (hash != metadata.end() && !other_volume)
+      result.expected_sha256 = hash->second;
     return result;
   }
   std::vector<KeyValue> with_file = {{"volume.file", input}};
@@ -83,14 +96,16 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
     hash = sha256_of(files_of(source_of(input.scene.volume, input.folders)));
     require_hash(input, hash);
   }
-  if (sha256 != nullptr) *sha256 = hash;
+  if (sha256 != nullptr)
+    *sha256 = hash;
   Volume volume = load_volume(input.scene.volume, input.folders, progress);
   TransferFunction transfer = transfer_of(input.scene, volume);
   return prepare(input.scene, std::move(volume), std::move(transfer));
 }
 
 RenderResult render_with(OpenContext& context, const PreparedScene& prepared, const Progress& progress) {
-  if (prepared.scene.render.pipeline == Pipeline::reference) return render(prepared, nullptr, progress);
+  if (prepared.scene.render.pipeline == Pipeline::reference)
+    return render(prepared, nullptr, progress);
   if (!context.context || context.name != prepared.scene.render.context) {
     context.context.reset();
     context.context.emplace(open_context_for(prepared.scene));
@@ -104,10 +119,14 @@ void add_metadata(RenderResult& result, const Scene& scene, const std::string& s
   metadata["slicelens:scene"] = scene_to_json(scene, -1);
   metadata["slicelens:version"] = SLICELENS_VERSION;
   metadata["slicelens:renderer"] = result.renderer;
-  if (!result.version.empty()) metadata["slicelens:gl_version"] = result.version;
-  if (!result.context.empty()) metadata["slicelens:context"] = result.context;
-  if (!result.limits.empty()) metadata["slicelens:gl_limits"] = result.limits;
-  if (!sha256.empty()) metadata["slicelens:volume_sha256"] = sha256;
+  if (!result.version.empty())
+    metadata["slicelens:gl_version"] = result.version;
+  if (!result.context.empty())
+    metadata["slicelens:context"] = result.context;
+  if (!result.limits.empty())
+    metadata["slicelens:gl_limits"] = result.limits;
+  if (!sha256.empty())
+    metadata["slicelens:volume_sha256"] = sha256;
 }
 
 } // namespace slicelens::cli

@@ -23,21 +23,24 @@ struct SceneInput {
 
 enum class InputKind { scene, picture, volume };
 
-/// By extension: .json is a scene; .png, .exr, .tif … that exist as files are pictures; everything else is a volume.
+/// By extension: .json is a scene; .png, .exr, .tif … that exist as files are pictures; everything else is a
+/// volume.
 InputKind kind_of(const std::string& input);
 
-/// The scene of a scene file, of a picture written by slicelens, or of a volume with every other key at its default.
+/// The scene of a scene file, of a picture written by slicelens, or of a volume with every other key at its
+/// default.
 SceneInput scene_input(const std::string& input, const std::vector<std::string>& set);
 
 /// A scene text that is not a file, named `source` in messages.
-SceneInput scene_text_input(const std::string& text, const std::string& source, const std::vector<std::string>& set);
+SceneInput scene_text_input(const std::string& text, const std::string& source,
+                            const std::vector<std::string>& set);
 
-/// Reads or makes the volume and works everything out. `sha256` receives the hash of the volume's files (empty for
-/// phantoms). Throws FileError when the hash is not the expected one.
+/// Reads or makes the volume and works everything out. `sha256` receives the hash of the volume's files
+/// (empty for phantoms). Throws FileError when the hash is not the expected one.
 PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256 = nullptr);
 
-/// Opens the context that the scene asks for, where it needs one, and renders. `context` keeps it open for the next scene
-/// that asks for the same kind.
+/// Opens the context that the scene asks for, where it needs one, and renders. `context` keeps it open for
+/// the next scene that asks for the same kind.
 struct OpenContext {
   std::optional<gl::Context> context;
   ContextName name = ContextName::automatic;

@@ -28,7 +28,8 @@ std::string volume_json(const Volume& volume) {
   // One row for each world axis, so that the matrix reads as it is written on paper.
   json["direction"] = Json::array();
   for (int row = 0; row < 3; ++row) {
-    json["direction"].push_back({volume.direction[0][row], volume.direction[1][row], volume.direction[2][row]});
+    json["direction"].push_back(
+        {volume.direction[0][row], volume.direction[1][row], volume.direction[2][row]});
   }
   json["type"] = name_of(volume.type);
   json["range"] = {volume.min, volume.max};
@@ -36,7 +37,8 @@ std::string volume_json(const Volume& volume) {
   json["components"] = volume.components;
   json["frames"] = volume.frames;
   json["format"] = volume.format;
-  if (volume.non_finite > 0) json["non_finite"] = volume.non_finite;
+  if (volume.non_finite > 0)
+    json["non_finite"] = volume.non_finite;
   return json.dump(2, ' ', true);
 }
 

@@ -1,9 +1,8 @@
-#include "options.h"
-
 #include "core/embedded.h"
 #include "core/errors.h"
 #include "core/text.h"
 #include "gl/context.h"
+#include "options.h"
 #include "scene/names.h"
 #include "scene/scene_json.h"
 #include "volume/phantom.h"
@@ -21,11 +20,14 @@ namespace cli {
 
 namespace {
 
-void row(const std::string& name, const std::string& text) { std::printf("%-32s %s\n", name.c_str(), text.c_str()); }
+void row(const std::string& name, const std::string& text) {
+  std::printf("%-32s %s\n", name.c_str(), text.c_str());
+}
 
 void list_contexts() {
   for (const gl::ContextProbe& probe : gl::probe_contexts()) {
-    row(probe.kind, probe.info ? "can be opened: " + probe.info->renderer + ", OpenGL " + probe.info->version : "not here: " + probe.reason);
+    row(probe.kind, probe.info ? "can be opened: " + probe.info->renderer + ", OpenGL " + probe.info->version
+                               : "not here: " + probe.reason);
   }
 }
 
@@ -36,19 +38,23 @@ void list_pipelines() {
 }
 
 void list_phantoms() {
-  for (const PhantomInfo& phantom : phantoms()) row(phantom.name, phantom.description + " (preset " + phantom.preset + ")");
+  for (const PhantomInfo& phantom : phantoms())
+    row(phantom.name, phantom.description + " (preset " + phantom.preset + ")");
 }
 
 void list_presets() {
-  for (const PresetInfo& preset : presets()) row(preset.name, preset.description + (preset.relative ? " [relative to the data's range]" : " [HU]"));
+  for (const PresetInfo& preset : presets())
+    row(preset.name, preset.description + (preset.relative ? " [relative to the data's range]" : " [HU]"));
 }
 
 void list_keys() {
-  for (const auto& [key, help] : list_scene_keys()) row(key, help);
+  for (const auto& [key, help] : list_scene_keys())
+    row(key, help);
 }
 
 void list_figures() {
-  for (const EmbeddedFile& file : embedded_scenes()) row(file.name, scene_from_json(file.text, file.name).title);
+  for (const EmbeddedFile& file : embedded_scenes())
+    row(file.name, scene_from_json(file.text, file.name).title);
 }
 
 void list_warps() { std::printf("no warps are part of this version\n"); }
@@ -57,8 +63,9 @@ void list_warps() { std::printf("no warps are part of this version\n"); }
 
 void run_list(const ListOptions& options) {
   const std::vector<std::pair<std::string, std::function<void()>>> lists = {
-      {"contexts", list_contexts}, {"figures", list_figures},     {"keys", list_keys},   {"phantoms", list_phantoms},
-      {"pipelines", list_pipelines}, {"presets", list_presets}, {"warps", list_warps}};
+      {"contexts", list_contexts}, {"figures", list_figures},     {"keys", list_keys},
+      {"phantoms", list_phantoms}, {"pipelines", list_pipelines}, {"presets", list_presets},
+      {"warps", list_warps}};
   std::vector<std::string> names;
   for (const auto& [name, list] : lists) {
     if (name == options.what) {

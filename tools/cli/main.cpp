@@ -1,10 +1,9 @@
-// The program `slicelens`: parses the command line, runs one command, turns errors into one line and an exit status
-// (0 done, 1 the work failed, 2 wrong usage or scene).
+// The program `slicelens`: parses the command line, runs one command, turns errors into one line and an exit
+// status (0 done, 1 the work failed, 2 wrong usage or scene).
 
 #include "console.h"
-#include "options.h"
-
 #include "core/errors.h"
+#include "options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -17,41 +16,65 @@ namespace slicelens::cli {
 
 namespace {
 
-void add_set(CLI::App& command, std::vector<std::string>& set, const std::string& name = "--set", const std::string& help = "") {
-  command.add_option(name, set, help.empty() ? "change a scene key, for instance render.spacing=0.5; may be given again (see: slicelens list keys)" : help)
+void add_set(CLI::App& command, std::vector<std::string>& set, const std::string& name = "--set",
+             const std::string& help = "") {
+  command
+      .add_option(name, set,
+                  help.empty() ? "change a scene key, for instance render.spacing=0.5; may be given again "
+                                 "(see: slicelens list keys)"
+                               : help)
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
 }
 
 void add_render(CLI::App& app, RenderOptions& options, std::function<void()>& run) {
-  CLI::App& command = *app.add_subcommand("render", "render a scene, a volume, or a picture that slicelens wrote");
-  command.footer("A SCENE is a JSON file, a VOLUME any file or folder that 'slicelens info' can read, an IMAGE a picture written by\n"
+  CLI::App& command =
+      *app.add_subcommand("render", "render a scene, a volume, or a picture that slicelens wrote");
+  command.footer("A SCENE is a JSON file, a VOLUME any file or folder that 'slicelens info' can read, an "
+                 "IMAGE a picture written by\n"
                  "slicelens, which holds its scene and is rendered again from it.\n\n"
                  "  slicelens render head.json -o head.png --set render.spacing=0.5\n"
                  "  slicelens render ct/ --set transfer.preset=CT-Bone --set camera.azimuth=30 -o bone.png");
   command.add_option("input", options.input, "SCENE, VOLUME or IMAGE")->required()->type_name("");
-  command.add_option("-o,--output", options.output, "picture to write, .png or .exr; default: the input's name as .png in the current folder")->type_name("FILE");
+  command
+      .add_option("-o,--output", options.output,
+                  "picture to write, .png or .exr; default: the input's name as .png in the current folder")
+      ->type_name("FILE");
   add_set(command, options.set);
-  command.add_option("--depth", options.depth, "8 or 16 for .png (default 8), half or float for .exr (default half)")->type_name("DEPTH");
-  command.add_flag("--print-scene", options.print_scene, "print the scene with every default filled in, and do nothing else");
-  command.add_flag("-v,--verbose", options.verbose, "say on stderr what was rendered by what, and where the time went");
+  command
+      .add_option("--depth", options.depth,
+                  "8 or 16 for .png (default 8), half or float for .exr (default half)")
+      ->type_name("DEPTH");
+  command.add_flag("--print-scene", options.print_scene,
+                   "print the scene with every default filled in, and do nothing else");
+  command.add_flag("-v,--verbose", options.verbose,
+                   "say on stderr what was rendered by what, and where the time went");
   command.callback([&options, &run] { run = [&options] { run_render(options); }; });
 }
 
 void add_compare(CLI::App& app, CompareOptions& options, std::function<void()>& run) {
-  CLI::App& command = *app.add_subcommand("compare", "compare two pictures or scenes; metrics as JSON on stdout");
-  command.footer("  slicelens compare a.png b.png -o difference/\n"
-                 "  slicelens compare head.json --set-a render.pipeline=slices --set-b render.pipeline=rays\n\n"
-                 "psnr (dB, null when equal) and the other metrics are over RGB on the background; psnr_covered is over the pixels that\n"
-                 "either picture covers; over_1_255 is the fraction of values that differ by more than 1/255.");
+  CLI::App& command =
+      *app.add_subcommand("compare", "compare two pictures or scenes; metrics as JSON on stdout");
+  command.footer(
+      "  slicelens compare a.png b.png -o difference/\n"
+      "  slicelens compare head.json --set-a render.pipeline=slices --set-b render.pipeline=rays\n\n"
+      "psnr (dB, null when equal) and the other metrics are over RGB on the background; psnr_covered is over "
+      "the pixels that\n"
+      "either picture covers; over_1_255 is the fraction of values that differ by more than 1/255.");
   command.add_option("a", options.a, "first picture, scene or volume")->required()->type_name("");
-  command.add_option("b", options.b, "second one; default: the first again, with --set-a and --set-b")->type_name("");
-  command.add_option("-o,--output", options.folder, "folder for both pictures, the amplified difference and a heat map")->type_name("DIR");
+  command.add_option("b", options.b, "second one; default: the first again, with --set-a and --set-b")
+      ->type_name("");
+  command
+      .add_option("-o,--output", options.folder,
+                  "folder for both pictures, the amplified difference and a heat map")
+      ->type_name("DIR");
   add_set(command, options.set, "--set", "change a scene key on both sides");
   add_set(command, options.set_a, "--set-a", "change a scene key of the first side");
   add_set(command, options.set_b, "--set-b", "change a scene key of the second side");
-  command.add_option("--factor", options.factor, "amplification of the difference picture; the heat map ends at its inverse")
+  command
+      .add_option("--factor", options.factor,
+                  "amplification of the difference picture; the heat map ends at its inverse")
       ->capture_default_str()
       ->check(CLI::Range(1e-6, 1e6))
       ->type_name("F");
@@ -61,11 +84,15 @@ void add_compare(CLI::App& app, CompareOptions& options, std::function<void()>& 
 
 void add_info(CLI::App& app, InfoOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand("info", "what a volume file holds");
-  command.footer("Reads NRRD, MetaImage, NIfTI, DICOM (a folder or one file of a series), VTK image data, stacks of PNG, TIFF or JPEG\n"
-                 "(a folder or a pattern), and headerless raw files: name_256x256x256_uint8.raw, or --set volume.size=[…] --set volume.type=….");
+  command.footer("Reads NRRD, MetaImage, NIfTI, DICOM (a folder or one file of a series), VTK image data, "
+                 "stacks of PNG, TIFF or JPEG\n"
+                 "(a folder or a pattern), and headerless raw files: name_256x256x256_uint8.raw, or --set "
+                 "volume.size=[…] --set volume.type=….");
   command.add_option("volume", options.input, "file, folder or pattern")->required()->type_name("");
   add_set(command, options.set);
-  command.add_flag("--json", options.json, "as JSON: dims, spacing, origin, direction, type, range, mean, components, frames, format");
+  command.add_flag(
+      "--json", options.json,
+      "as JSON: dims, spacing, origin, direction, type, range, mean, components, frames, format");
   command.callback([&options, &run] { run = [&options] { run_info(options); }; });
 }
 
@@ -73,21 +100,31 @@ void add_phantom(CLI::App& app, PhantomOptions& options, std::function<void()>& 
   CLI::App& command = *app.add_subcommand("phantom", "write an embedded phantom as a volume file");
   command.footer("  slicelens phantom head --size 128 -o head.nrrd");
   command.add_option("name", options.name, "see: slicelens list phantoms")->required()->type_name("");
-  command.add_option("-o,--output", options.output, "volume to write: .nrrd, .mha or .mhd")->required()->type_name("FILE");
-  command.add_option("--size", options.size, "voxels: one number for a cube, or three")->expected(1, 3)->type_name("N");
+  command.add_option("-o,--output", options.output, "volume to write: .nrrd, .mha or .mhd")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("--size", options.size, "voxels: one number for a cube, or three")
+      ->expected(1, 3)
+      ->type_name("N");
   command.callback([&options, &run] { run = [&options] { run_phantom(options); }; });
 }
 
 void add_list(CLI::App& app, ListOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand("list", "what this program knows");
-  command.add_option("what", options.what, "contexts, figures, keys, phantoms, pipelines, presets or warps")->required()->type_name("");
+  command.add_option("what", options.what, "contexts, figures, keys, phantoms, pipelines, presets or warps")
+      ->required()
+      ->type_name("");
   command.callback([&options, &run] { run = [&options] { run_list(options); }; });
 }
 
 void add_gallery(CLI::App& app, GalleryOptions& options, std::function<void()>& run) {
-  CLI::App& command = *app.add_subcommand("gallery", "render scenes by slices and by rays into a page with pictures and metrics");
-  command.add_option("inputs", options.inputs, "scenes or volumes; none: the embedded gallery of phantoms")->type_name("");
-  command.add_option("-o,--output", options.folder, "folder for index.html and the pictures")->capture_default_str()->type_name("DIR");
+  CLI::App& command = *app.add_subcommand(
+      "gallery", "render scenes by slices and by rays into a page with pictures and metrics");
+  command.add_option("inputs", options.inputs, "scenes or volumes; none: the embedded gallery of phantoms")
+      ->type_name("");
+  command.add_option("-o,--output", options.folder, "folder for index.html and the pictures")
+      ->capture_default_str()
+      ->type_name("DIR");
   add_set(command, options.set);
   command.callback([&options, &run] { run = [&options] { run_gallery(options); }; });
 }
@@ -97,17 +134,21 @@ int fail(const std::string& message, int status) {
   end_progress();
   std::string line = message;
   for (char& c : line) {
-    if (c == '\n' || c == '\r') c = ' ';
+    if (c == '\n' || c == '\r')
+      c = ' ';
   }
   std::fprintf(stderr, "slicelens: %s\n", line.c_str());
   return status;
 }
 
 int run_program(int argc, char** argv) {
-  CLI::App app("Slicelens renders volumes by texture slicing and by ray casting, and measures how far the two are apart.", "slicelens");
+  CLI::App app("Slicelens renders volumes by texture slicing and by ray casting, and measures how far the "
+               "two are apart.",
+               "slicelens");
   app.set_version_flag("--version", std::string("slicelens ") + SLICELENS_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit status: 0 done, 1 the work failed, 2 wrong usage or scene. Help for one command: slicelens render --help");
+  app.footer("Exit status: 0 done, 1 the work failed, 2 wrong usage or scene. Help for one command: "
+             "slicelens render --help");
   std::function<void()> run;
   RenderOptions render;
   CompareOptions compare;
@@ -131,7 +172,8 @@ int run_program(int argc, char** argv) {
     return fail(std::string(e.what()) + "; see slicelens --help", 2);
   }
   run();
-  if (std::fflush(stdout) != 0) return fail("stdout: cannot be written", 1);
+  if (std::fflush(stdout) != 0)
+    return fail("stdout: cannot be written", 1);
   return 0;
 }
 

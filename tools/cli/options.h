@@ -50,8 +50,8 @@ struct GalleryOptions {
   std::vector<std::string> set;
 };
 
-// Each runs one command and returns; results go to stdout and files, the rest to stderr. They throw the errors of
-// core/errors.h.
+// Each runs one command and returns; results go to stdout and files, the rest to stderr. They throw the
+// errors of core/errors.h.
 void run_render(const RenderOptions& options);
 void run_compare(const CompareOptions& options);
 void run_info(const InfoOptions& options);

@@ -1,7 +1,6 @@
 #include "console.h"
-#include "options.h"
-
 #include "core/errors.h"
+#include "options.h"
 #include "volume/phantom.h"
 #include "volume/write.h"
 
@@ -11,9 +10,12 @@ namespace slicelens::cli {
 
 void run_phantom(const PhantomOptions& options) {
   std::array<std::size_t, 3> size = phantom_info(options.name).size;
-  if (options.size.size() == 1) size = {options.size[0], options.size[0], options.size[0]};
-  if (options.size.size() == 3) size = {options.size[0], options.size[1], options.size[2]};
-  if (options.size.size() == 2) throw UsageError("--size takes one number for a cube, or three");
+  if (options.size.size() == 1)
+    size = {options.size[0], options.size[0], options.size[0]};
+  if (options.size.size() == 3)
+    size = {options.size[0], options.size[1], options.size[2]};
+  if (options.size.size() == 2)
+    throw UsageError("--size takes one number for a cube, or three");
   const Volume volume = make_phantom(options.name, size, console_progress());
   write_volume(volume, options.output);
   end_progress();

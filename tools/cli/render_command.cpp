@@ -1,9 +1,8 @@
 #include "console.h"
-#include "inputs.h"
-#include "options.h"
-
 #include "core/errors.h"
 #include "image/image_io.h"
+#include "inputs.h"
+#include "options.h"
 #include "scene/names.h"
 #include "scene/scene_json.h"
 
@@ -20,9 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string output_path(const RenderOptions& options) {
-  if (!options.output.empty()) return options.output;
+  if (!options.output.empty())
+    return options.output;
   fs::path name = fs::path(options.input).lexically_normal();
-  if (!name.has_filename()) name = name.parent_path();
+  if (!name.has_filename())
+    name = name.parent_path();
   const std::string output = name.stem().string() + ".png";
   std::error_code error;
   if (fs::exists(output, error) && fs::equivalent(output, options.input, error)) {
@@ -40,16 +41,24 @@ double seconds_since(std::chrono::steady_clock::time_point& mark) {
 
 void print_verbose(const RenderResult& result, const PreparedScene& prepared, double load, double write) {
   const auto& dims = prepared.volume.dims;
-  std::fprintf(stderr, "volume     %zux%zux%zu %s, values %g to %g, %s\n", dims[0], dims[1], dims[2], name_of(prepared.volume.type).c_str(),
-               prepared.volume.min, prepared.volume.max, prepared.volume.format.c_str());
+  std::fprintf(stderr, "volume     %zux%zux%zu %s, values %g to %g, %s\n", dims[0], dims[1], dims[2],
+               name_of(prepared.volume.type).c_str(), prepared.volume.min, prepared.volume.max,
+               prepared.volume.format.c_str());
   std::fprintf(stderr, "renderer   %s %s\n", result.renderer.c_str(), result.context.c_str());
-  if (!result.version.empty()) std::fprintf(stderr, "version    %s\nlimits     %s\n", result.version.c_str(), result.limits.c_str());
-  if (!result.texture.empty()) std::fprintf(stderr, "texture    %s, %.1f MiB\n", result.texture.c_str(), static_cast<double>(result.texture_bytes) / (1 << 20));
-  if (result.slices > 0) std::fprintf(stderr, "slices     %zu\n", result.slices);
+  if (!result.version.empty())
+    std::fprintf(stderr, "version    %s\nlimits     %s\n", result.version.c_str(), result.limits.c_str());
+  if (!result.texture.empty())
+    std::fprintf(stderr, "texture    %s, %.1f MiB\n", result.texture.c_str(),
+                 static_cast<double>(result.texture_bytes) / (1 << 20));
+  if (result.slices > 0)
+    std::fprintf(stderr, "slices     %zu\n", result.slices);
   const RenderTimes& t = result.times;
-  std::fprintf(stderr, "load       %8.3f s\ncontext    %8.3f s\nupload     %8.3f s\ncompile    %8.3f s\nslice      %8.3f s\ndraw       %8.3f s", load,
-               t.context, t.upload, t.compile, t.slice, t.draw);
-  if (t.gpu_draw) std::fprintf(stderr, "  (driver's timer %.3f s)", *t.gpu_draw);
+  std::fprintf(stderr,
+               "load       %8.3f s\ncontext    %8.3f s\nupload     %8.3f s\ncompile    %8.3f s\nslice      "
+               "%8.3f s\ndraw       %8.3f s",
+               load, t.context, t.upload, t.compile, t.slice, t.draw);
+  if (t.gpu_draw)
+    std::fprintf(stderr, "  (driver's timer %.3f s)", *t.gpu_draw);
   std::fprintf(stderr, "\nread       %8.3f s\nwrite      %8.3f s\n", t.read, write);
 }
 
@@ -82,7 +91,8 @@ void run_render(const RenderOptions& options) {
   seconds_since(mark);
   write_image(result.image, output, depth);
   end_progress();
-  if (options.verbose) print_verbose(result, prepared, loading, seconds_since(mark));
+  if (options.verbose)
+    print_verbose(result, prepared, loading, seconds_since(mark));
   std::printf("%s\n", output.c_str());
 }
 

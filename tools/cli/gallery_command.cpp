@@ -1,0 +1,179 @@
+#include "console.h"
+#include "core/embedded.h"
+#include "core/errors.h"
+#include "core/files.h"
+#include "image/image_io.h"
+#include "image/pictures.h"
+#include "inputs.h"
+#include "options.h"
+#include "scene/load.h"
+#include "scene/scene_json.h"
+#include "study/gallery.h"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+namespace slicelens {
+
+const std::vector<EmbeddedFile>& embedded_scenes(); // made at build time
+
+namespace cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A scene of the gallery and how a user names it.
+struct GalleryScene {
+  std::string name;
+  std::string argument; ///< of `slicelens render`
+  SceneInput input;
+};
+
+/// What a gallery shows of a user's volume: the same data by each mode.
+std::vector<GalleryScene> scenes_of_volume(const std::string& volume, const std::vector<std::string>& set) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> views = {
+      {"direct volume rendering", {"camera.azimuth=30", "camera.elevation=10"}},
+      {"direct volume rendering, diffuse light",
+       {"camera.azimuth=30", "camera.elevation=10", "render.shading=diffuse"}},
+      {"perspective, diffuse light",
+       {"camera.azimuth=-30", "camera.elevation=20", "camera.projection=perspective",
+        "render.shading=diffuse"}},
+      {"maximum intensity projection", {"render.mode=mip", "transfer.preset=grey-ramp"}},
+      {"X-ray", {"render.mode=xray"}},
+  };
+  fs::path path = fs::path(volume).lexically_normal();
+  if (!path.has_filename())
+    path = path.parent_path();
+  std::vector<GalleryScene> scenes;
+  for (const auto& [title, changes] : views) {
+    std::vector<std::string> all = {"title=" + path.filename().string() + ": " + title};
+    all.insert(all.end(), changes.begin(), changes.end());
+    std::string argument = "'" + volume + "'";
+    for (const std::string& change : changes)
+      argument += " --set " + change;
+    for (const std::string& change : set)
+      argument += " --set '" + change + "'";
+    all.insert(all.end(), set.begin(), set.end());
+    scenes.push_back(
+        {path.stem().string() + "_" + std::to_string(scenes.size() + 1), argument, scene_input(volume, all)});
+  }
+  return scenes;
+}
+
+std::vector<GalleryScene> scenes_of(const GalleryOptions& options) {
+  std::vector<GalleryScene> scenes;
+  if (options.inputs.empty()) {
+    for (const EmbeddedFile& file : embedded_scenes()) {
+      scenes.push_back({fs::path(file.name).stem().string(), fs::path(file.name).stem().string() + ".json",
+                        scene_text_input(file.text, file.name, options.set)});
+    }
+  }
+  for (const std::string& input : options.inputs) {
+    if (kind_of(input) == InputKind::volume) {
+      for (GalleryScene& scene : scenes_of_volume(input, options.set))
+        scenes.push_back(std::move(scene));
+    } else {
+      scenes.push_back({fs::path(input).stem().string(), "'" + input + "'", scene_input(input, options.set)});
+    }
+  }
+  return scenes;
+}
+
+/// Keeps the last volume, which neighbouring scenes often share.
+class Gallery {
+public:
+  explicit Gallery(const GalleryOptions& options) : folder_(options.folder) {}
+
+  GalleryEntry make_entry(const GalleryScene& scene, const Progress& progress) {
+    GalleryEntry entry;
+    entry.name = scene.name;
+    entry.title = scene.input.scene.title.empty() ? scene.name : scene.input.scene.title;
+    entry.scene_json = scene_to_json(scene.input.scene);
+    entry.command = "slicelens render " + scene.argument + " -o " + scene.name + ".png";
+    const RenderResult slices = draw(scene.input, Pipeline::slices, progress);
+    const RenderResult rays = draw(scene.input, Pipeline::rays, progress);
+    entry.slices_picture = save(slices.image, scene.name + "_slices.png");
+    entry.rays_picture = save(rays.image, scene.name + "_rays.png");
+    entry.heat_map = save(heat_map(slices.image, rays.image, 8.0 / 255), scene.name + "_difference.png");
+    const glm::dvec3 background(scene.input.scene.render.background);
+    entry.metrics = compare_images(slices.image, rays.image, background, background);
+    entry.slices_seconds = slices.times.draw;
+    entry.rays_seconds = rays.times.draw;
+    entry.slice_count = slices.slices;
+    entry.volume = std::to_string(volume_.dims[0]) + "×" + std::to_string(volume_.dims[1]) + "×" +
+                   std::to_string(volume_.dims[2]) + " " + name_of(volume_.type) + ", " + volume_.format;
+    driver_ = slices.renderer + ", OpenGL " + slices.version;
+    if (scene.argument == scene.name + ".json") {
+      write_text_atomically(folder_ / scene.argument, entry.scene_json + "\n");
+    }
+    return entry;
+  }
+
+  const std::string& driver() const { return driver_; }
+
+private:
+  RenderResult draw(const SceneInput& input, Pipeline pipeline, const Progress& progress) {
+    Scene volume_only;
+    volume_only.volume = input.scene.volume;
+    const std::string key = scene_to_json(volume_only, -1);
+    if (key != volume_key_) {
+      volume_ = load_volume(input.scene.volume, input.folders, progress);
+      volume_key_ = key;
+      if (input.scene.volume.file)
+        sha256_ = sha256_of(files_of(source_of(input.scene.volume, input.folders)));
+    }
+    Scene scene = input.scene;
+    scene.render.pipeline = pipeline;
+    if (pipeline == Pipeline::rays)
+      scene.render.order = Order::back_to_front; // the key is for slices
+    TransferFunction transfer = transfer_of(scene, volume_);
+    PreparedScene prepared = prepare(scene, std::move(volume_), std::move(transfer));
+    RenderResult result = render_with(context_, prepared, progress);
+    volume_ = std::move(prepared.volume);
+    add_metadata(result, prepared.scene, input.scene.volume.file ? sha256_ : "");
+    return result;
+  }
+
+  std::string save(const Image& image, const std::string& name) {
+    write_image(image, folder_ / name, PixelDepth::png8);
+    return name;
+  }
+
+  fs::path folder_;
+  OpenContext context_;
+  Volume volume_;
+  std::string volume_key_;
+  std::string sha256_;
+  std::string driver_;
+};
+
+} // namespace
+
+void run_gallery(const GalleryOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<GalleryScene> scenes = scenes_of(options);
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  if (error)
+    throw FileError(options.folder, "cannot be made: " + error.message());
+  const Progress progress = console_progress();
+  Gallery gallery(options);
+  std::vector<GalleryEntry> entries;
+  for (const GalleryScene& scene : scenes) {
+    end_progress();
+    std::fprintf(stderr, "%zu/%zu %s\n", entries.size() + 1, scenes.size(), scene.name.c_str());
+    entries.push_back(gallery.make_entry(scene, progress));
+  }
+  end_progress();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const fs::path page = fs::path(options.folder) / "index.html";
+  write_text_atomically(page, gallery_page(entries, gallery.driver(), seconds));
+  std::printf("%s\n", page.string().c_str());
+}
+
+} // namespace cli
+
+} // namespace slicelens
