@@ -15,7 +15,11 @@ TimerQuery::TimerQuery(const Functions& gl) : gl_(&gl) {
   counts_ = bits > 0;
 }
 
-void TimerQuery::begin() { gl_->BeginQuery(GL_TIME_ELAPSED, query_.name()); }
+void TimerQuery::begin() {
+  begun_ = std::chrono::steady_clock::now();
+  gl_->BeginQuery(GL_TIME_ELAPSED, query_.name());
+}
+
 void TimerQuery::end() { gl_->EndQuery(GL_TIME_ELAPSED); }
 
 bool TimerQuery::available() const {
@@ -29,9 +33,21 @@ std::optional<std::uint64_t> TimerQuery::result_nanoseconds() const {
     return std::nullopt;
   GLuint64 nanoseconds = 0;
   gl_->GetQueryObjectui64v(query_.name(), GL_QUERY_RESULT, &nanoseconds);
+  const auto passed =
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begun_);
+  if (nanoseconds > static_cast<std::uint64_t>(passed.count()))
+    return std::nullopt;
   return nanoseconds;
 }
 
 void finish(const Functions& gl) { gl.Finish(); }
+
+double elapsed_seconds(const Functions& gl, const std::function<void()>& work) {
+  gl.Finish();
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  gl.Finish();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 } // namespace slicelens::gl

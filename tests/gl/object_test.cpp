@@ -247,19 +247,25 @@ TEST_CASE("a state guard outlives an object that was bound") {
   CHECK(integer_of(gl, GL_DRAW_FRAMEBUFFER_BINDING) == 0);
 }
 
-TEST_CASE("a timer query measures work, or the driver says that it has no timer") {
+TEST_CASE("a timer query measures work, or says that it cannot") {
   const gl::Context context = test_context();
   const Functions& gl = context.functions();
   const gl::Target target = gl::make_target(gl, 256, 256, GL_RGBA32F);
   gl::bind_target(gl, target);
   gl::TimerQuery query(gl);
-  query.begin();
-  for (int i = 0; i < 20; ++i)
-    gl.Clear(GL_COLOR_BUFFER_BIT);
-  gl::finish(gl);
-  query.end();
+  const double seconds = gl::elapsed_seconds(gl, [&] {
+    query.begin();
+    for (int i = 0; i < 20; ++i)
+      gl.Clear(GL_COLOR_BUFFER_BIT);
+    query.end();
+  });
+  CHECK(seconds > 0.0);
   const std::optional<std::uint64_t> nanoseconds = query.result_nanoseconds();
-  CHECK(nanoseconds.has_value() == (context.info().limits.timer_query_bits > 0));
+  if (context.info().limits.timer_query_bits == 0)
+    CHECK_FALSE(nanoseconds.has_value());
+  // softpipe's timer is sound; llvmpipe's first query claims the machine's uptime and is then withheld.
+  if (softpipe_requested())
+    CHECK(nanoseconds.has_value());
   if (nanoseconds) {
     CHECK(*nanoseconds > 0);
     CHECK(query.available());
