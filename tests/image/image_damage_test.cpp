@@ -87,6 +87,13 @@ TEST_CASE("a header that claims an absurd size is refused") {
     // 8193·8192 pixels are just above 1 GiB of RGBA floats
     CHECK(contains(message, "65536 on a side"));
   }
+  write_bytes(scratch / "big.exr", exr_of("Y", {0, 0, 69999, 3}, {0, 0, 69999, 3}, 1));
+  CHECK(contains(message_of([&] { read_image(scratch / "big.exr"); }), "65536 on a side"));
+  write_bytes(scratch / "big.exr", exr_of("Y", {0, 0, 3, 3}, {0, 0, 99999, 99999}, 1));
+  CHECK(contains(message_of([&] { read_image(scratch / "big.exr"); }), "65536 on a side"));
+  write_bytes(scratch / "far.exr",
+              exr_of("Y", {2000000000, 0, 2000000003, 3}, {-2000000000, 0, -1999999997, 3}, 1));
+  CHECK(message_of([&] { read_image(scratch / "far.exr"); }).find('\n') == std::string::npos);
   write_bytes(scratch / "big.png", png(8000, 8000));
   CHECK(contains(message_of([&] { read_image(scratch / "big.png"); }), "too short"));
 }

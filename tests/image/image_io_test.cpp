@@ -212,3 +212,26 @@ TEST_CASE("the codec may be loaded ahead, often and from several threads") {
   for (int i = 1; i < 4; ++i)
     CHECK((read_text(scratch / (std::to_string(i) + ".png")) == first));
 }
+
+TEST_CASE("an EXR's data window is put in its place in the display window") {
+  const Scratch scratch("window");
+  // stored: columns 12 and 13 of row 21; shown: columns 10 to 13 of rows 20 to 22
+  write_bytes(scratch / "a.exr", exr_of("Y", {12, 21, 13, 21}, {10, 20, 13, 22}, 1.5F));
+  const Image image = read_image(scratch / "a.exr");
+  REQUIRE(image.width == 4);
+  REQUIRE(image.height == 3);
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      const bool stored = y == 1 && x >= 2;
+      CHECK(channel(image, x, y, 0) == (stored ? 1.5F : 0));
+      CHECK(channel(image, x, y, 2) == (stored ? 1.5F : 0)); // grey
+      CHECK(channel(image, x, y, 3) == (stored ? 1.0F : 0));
+    }
+  }
+  // the stored window reaches out on all sides: what lies outside is cut off
+  write_bytes(scratch / "b.exr", exr_of("R", {-2, -2, 5, 5}, {0, 0, 1, 2}, 0.25F));
+  const Image cropped = read_image(scratch / "b.exr");
+  REQUIRE(cropped.width == 2);
+  REQUIRE(cropped.height == 3);
+  CHECK(channel(cropped, 1, 2, 0) == 0.25F);
+}

@@ -129,14 +129,15 @@ std::map<std::string, std::string> metadata_of(const OIIO::ImageSpec& spec) {
 struct Window {
   int width;
   int height;
-  int x; ///< column of the first stored pixel
-  int y;
+  std::int64_t x; ///< column of the first stored pixel, which may lie far outside
+  std::int64_t y;
 };
 
 Window window_of(const OIIO::ImageSpec& spec, bool exr) {
   if (!exr || spec.full_width < 1 || spec.full_height < 1)
     return {spec.width, spec.height, 0, 0};
-  return {spec.full_width, spec.full_height, spec.x - spec.full_x, spec.y - spec.full_y};
+  return {spec.full_width, spec.full_height, std::int64_t{spec.x} - spec.full_x,
+          std::int64_t{spec.y} - spec.full_y};
 }
 
 /// Channels [first, last] of all pixels as floats. Integers of 8 and 16 bit are divided by their largest
@@ -169,10 +170,12 @@ void place_pixels(Image& image, const std::vector<float>& stored, const OIIO::Im
   const float* pixel = stored.data();
   for (int y = 0; y < spec.height; ++y) {
     for (int x = 0; x < spec.width; ++x, pixel += channels) {
-      const int column = x + window.x;
-      const int row = y + window.y;
-      if (column < 0 || column >= window.width || row < 0 || row >= window.height)
+      const std::int64_t left = x + window.x;
+      const std::int64_t top = y + window.y;
+      if (left < 0 || left >= window.width || top < 0 || top >= window.height)
         continue;
+      const int column = static_cast<int>(left);
+      const int row = static_cast<int>(top);
       const float alpha = from[3] < 0 ? 1.0F : pixel[from[3]];
       for (int c = 0; c < 3; ++c) {
         const float value = pixel[from[static_cast<std::size_t>(c)]];
