@@ -67,6 +67,9 @@ PhantomRows marschner_lobb_rows() {
   });
 }
 
+PhantomRows ct_head_rows() { return head_rows(false); }
+PhantomRows mr_head_rows() { return head_rows(true); }
+
 const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> list = {
       {{"box", "a box of constant extinction, exact at any resolution", "v = 1", {128, 128, 128}, "fog"},
@@ -136,6 +139,37 @@ const std::vector<Recipe>& recipes() {
        glm::dvec3(1),
        0,
        marschner_lobb_rows},
+      {{"engine",
+        "a machined block with bores, thin sleeves, springs and valves; 8 bit, like the well-known CT",
+        "aluminium 120, cast walls 150, steel inserts 225 in air 8; see phantom_engine.cpp",
+        {256, 256, 128},
+        "MR-Default"},
+       ScalarType::u8,
+       glm::dvec3(1, 1, 0.5),
+       0,
+       engine_rows},
+      {{"head",
+        "a CT of a head in HU: skin, skull, brain, and arteries with contrast agent and an aneurysm",
+        "air -1000, fat -95, skin 60, muscle 52, brain 28 and 39, fluid 8, blood 330, bone 420 and 1250, "
+        "teeth "
+        "2300; shapes in phantom_head_shape.cpp",
+        {256, 256, 256},
+        "CT-Bone"},
+       ScalarType::i16,
+       glm::dvec3(1),
+       256,
+       ct_head_rows},
+      {{"head-mr",
+        "the same head with the contrast of a T1-weighted MR scan, exactly aligned with `head`",
+        "air 4, fat 820, skin 420, muscle 340, grey 500, white 690, fluid 130, blood 960, bone 35 and 560, "
+        "teeth "
+        "20; shapes as in head",
+        {256, 256, 256},
+        "MR-Default"},
+       ScalarType::u16,
+       glm::dvec3(1),
+       256,
+       mr_head_rows},
   };
   return list;
 }
