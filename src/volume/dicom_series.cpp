@@ -15,6 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Positions (mm) closer than this are equal: below any real slice distance, above the text's rounding.
+constexpr double same_position = 1e-3;
+
 std::string described(const std::vector<DicomFile>& files) {
   std::map<std::string, std::pair<std::string, std::size_t>> series;
   for (const DicomFile& file : files) {
@@ -124,10 +127,9 @@ void check_alike(const std::vector<DicomFile>& files) {
 /// Splits slices sorted by position into stacks that each have every position once.
 std::vector<DicomFile> frame_of(const std::vector<DicomFile>& sorted, const std::string& source,
                                 std::size_t frame, std::size_t& frames) {
-  // Equal positions: within 1/1000 mm, below any real distance and above the text's rounding.
   std::vector<std::vector<DicomFile>> groups;
   for (const DicomFile& file : sorted) {
-    if (groups.empty() || std::abs(file.along - groups.back().front().along) > 1e-3)
+    if (groups.empty() || std::abs(file.along - groups.back().front().along) > same_position)
       groups.emplace_back();
     groups.back().push_back(file);
   }
@@ -215,7 +217,7 @@ DicomStack stack_of(std::vector<DicomFile> files, const fs::path& named, const s
     }
   }
   for (const DicomFile& file : files) {
-    if (file.mosaic)
+    if (file.mosaic && (named.empty() || file.file == named))
       throw FileError(file.file.string(), "is a Siemens mosaic (many slices in one picture); convert it to a "
                                           "series or to NIfTI first");
   }
@@ -241,6 +243,16 @@ DicomStack stack_of(std::vector<DicomFile> files, const fs::path& named, const s
     file.along = glm::dot(*file.position, normal);
   std::stable_sort(files.begin(), files.end(),
                    [](const DicomFile& a, const DicomFile& b) { return a.along < b.along; });
+  if (!named.empty() && files.back().along - files.front().along <= same_position) {
+    // Many pictures of one slice (a time series, other reconstructions): the file that was named is meant.
+    for (const DicomFile& file : files) {
+      if (file.file == named)
+        stack.slices = {file};
+    }
+    report_warning(progress, source + ": " + std::to_string(files.size() - 1) +
+                                 " other image(s) of its series lie at the same position and are left out");
+    return stack;
+  }
   stack.slices = frame_of(files, source, frame, stack.frames);
   if (stack.slices.size() > 1)
     measure(stack, normal, source, progress);

@@ -11,7 +11,6 @@ namespace slicelens {
 
 struct HeaderScan {
   std::vector<std::filesystem::path> data_files; ///< detached data in reading order; empty when attached
-  bool frames_first = false; ///< NRRD: the first axis is a list (of frames), not components
 };
 
 /// Each throws FileError when the header is not one of its format, a needed field is missing or wrong, the

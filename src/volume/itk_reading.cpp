@@ -4,14 +4,19 @@
 #include "core/text.h"
 #include "volume/file_checks.h"
 
+#include <fcntl.h>
 #include <gdcmTrace.h>
 #include <itkOutputWindow.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <iostream>
 #include <mutex>
+#include <regex>
 #include <sstream>
 
 namespace slicelens {
@@ -109,18 +114,67 @@ void read_geometry(itk::ImageIOBase& io, const fs::path& path, Volume& volume) {
     throw FileError(path.string(), "its axes lie in one plane; the direction is damaged");
 }
 
+/// What is written to file descriptor 2 while one lives. libjpeg inside GDCM and niftilib print there with C
+/// stdio and cannot be told otherwise. Sanitizers report there too, so their builds leave it alone.
+class CapturedStderr {
+public:
+  CapturedStderr() {
+#ifndef __SANITIZE_ADDRESS__
+    std::fflush(stderr);
+    file_ = ::memfd_create("slicelens messages", MFD_CLOEXEC);
+    saved_ = file_ < 0 ? -1 : ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+    if (saved_ >= 0)
+      ::dup2(file_, STDERR_FILENO);
+#endif
+  }
+  ~CapturedStderr() { release(); }
+  CapturedStderr(const CapturedStderr&) = delete;
+  CapturedStderr& operator=(const CapturedStderr&) = delete;
+
+  /// Gives stderr back and returns what was written.
+  std::string release() {
+    std::string text;
+    if (saved_ >= 0) {
+      std::fflush(stderr);
+      ::dup2(saved_, STDERR_FILENO);
+      ::close(saved_);
+      text.resize(1 << 16);
+      const ssize_t count = ::pread(file_, text.data(), text.size(), 0);
+      text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+    }
+    if (file_ >= 0)
+      ::close(file_);
+    saved_ = file_ = -1;
+    return text;
+  }
+
+private:
+  int file_ = -1;
+  int saved_ = -1;
+};
+
 } // namespace
 
 struct LibraryMessages::State {
   const Progress& progress;
+  std::string label;
   itk::OutputWindow::Pointer old_window;
   CollectingWindow::Pointer window;
   std::ostringstream stream;
   std::streambuf* old_cerr = nullptr;
+  bool discarded = false;
+  CapturedStderr captured;
 };
 
-LibraryMessages::LibraryMessages(const Progress& progress)
-    : state_(new State{progress, itk::OutputWindow::GetInstance(), CollectingWindow::New(), {}, nullptr}) {
+LibraryMessages::LibraryMessages(const std::string& label, const Progress& progress)
+    : state_(new State{progress,
+                       label,
+                       itk::OutputWindow::GetInstance(),
+                       CollectingWindow::New(),
+                       {},
+                       nullptr,
+                       false,
+                       {}}) {
   itk::OutputWindow::SetInstance(state_->window);
   gdcm::Trace::SetStream(state_->stream);
   // MetaIO and parts of ITK print their errors to std::cerr and return a status; the status becomes our
@@ -132,26 +186,26 @@ LibraryMessages::~LibraryMessages() {
   std::cerr.rdbuf(state_->old_cerr);
   gdcm::Trace::SetStream(std::cerr);
   itk::OutputWindow::SetInstance(state_->old_window);
-  std::istringstream lines(state_->window->take() + state_->stream.str());
+  std::istringstream lines(state_->window->take() + state_->stream.str() + "\n" + state_->captured.release());
+  if (state_->discarded)
+    return;
   std::vector<std::string> said;
   for (std::string line; std::getline(lines, line);) {
     line = one_line(line);
-    // Every ITK warning comes with a line that names the source file, which says nothing to a user.
-    const bool place = line.rfind("WARNING: In ", 0) == 0 || line.rfind("ERROR: In ", 0) == 0;
+    // Every warning comes with a line that names a source file of the library, which says nothing to a user.
+    const std::string start = lower(line.substr(0, 11));
+    const bool place = start == "warning: in" || start.rfind("error: in", 0) == 0 || start == "debug: in /";
     if (line.empty() || place || std::find(said.begin(), said.end(), line) != said.end() || said.size() >= 20)
       continue;
     said.push_back(line);
-    report_warning(state_->progress, line);
+    report_warning(state_->progress, state_->label + ": " + line);
   }
 }
 
-void LibraryMessages::discard() {
-  state_->window->take();
-  state_->stream.str({});
-}
+void LibraryMessages::discard() { state_->discarded = true; }
 
 void with_libraries(const fs::path& path, const Progress& progress, const std::function<void()>& work) {
-  LibraryMessages messages(progress);
+  LibraryMessages messages(path.string(), progress);
   try {
     work();
   } catch (const Error&) {
@@ -162,6 +216,8 @@ void with_libraries(const fs::path& path, const Progress& progress, const std::f
     std::string text = error.GetDescription();
     if (text.rfind("ITK ERROR: ", 0) == 0)
       text = text.substr(11);
+    // "NrrdImageIO(0x55d0c81e3da0): …": the object's address says nothing to a user.
+    text = std::regex_replace(text, std::regex("[A-Za-z0-9_]+\\(0x[0-9a-fA-F]+\\): "), "");
     throw FileError(path.string(), "cannot be read: " + one_line(text));
   } catch (const std::bad_alloc&) {
     messages.discard();

@@ -13,15 +13,16 @@
 
 namespace slicelens {
 
-/// While one lives, what ITK and GDCM would print (their output window, trace and std::cerr) is collected
+/// While one lives, what ITK and GDCM would print (their output window, trace and stderr) is collected
 /// instead; when it ends the lines go to progress.warn, each once. One at a time: readers nest none.
 class LibraryMessages {
 public:
-  explicit LibraryMessages(const Progress& progress);
+  /// `label` (the file's name) begins each warning.
+  LibraryMessages(const std::string& label, const Progress& progress);
   ~LibraryMessages();
   LibraryMessages(const LibraryMessages&) = delete;
   LibraryMessages& operator=(const LibraryMessages&) = delete;
-  /// Forgets what was collected so far: an error says it already.
+  /// Forgets what is collected: an error says it already.
   void discard();
 
 private:

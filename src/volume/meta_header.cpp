@@ -125,7 +125,7 @@ void check_geometry(const fs::path& path, const MetaHeader& header, std::size_t 
     const bool distance = std::string(name) == "ElementSpacing" || std::string(name) == "ElementSize";
     const bool matrix = std::string(name) == "TransformMatrix" || std::string(name) == "Rotation" ||
                         std::string(name) == "Orientation";
-    if (values.size() != (matrix ? dimensions * dimensions : dimensions))
+    if (values.size() < (matrix ? dimensions * dimensions : dimensions))
       throw FileError(path.string(), "'" + std::string(name) + "' has " + std::to_string(values.size()) +
                                          " numbers, which does not fit 'NDims'");
     for (const double value : values) {

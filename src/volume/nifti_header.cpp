@@ -49,6 +49,7 @@ struct Fields {
   std::array<long long, 8> dim{};
   std::array<double, 8> pixdim{};
   int datatype = 0;
+  int intent = 0;
   double vox_offset = 0;
   double slope = 0;
   double intercept = 0;
@@ -68,6 +69,7 @@ Fields fields1(const std::string& head, bool swapped) {
   }
   const auto real = [&](std::size_t at) { return static_cast<double>(field_at<float>(head, at, swapped)); };
   f.datatype = field_at<std::int16_t>(head, 70, swapped);
+  f.intent = field_at<std::int16_t>(head, 68, swapped);
   f.vox_offset = real(108);
   f.slope = real(112);
   f.intercept = real(116);
@@ -91,6 +93,7 @@ Fields fields2(const std::string& head, bool swapped) {
     f.pixdim[i] = real(104 + 8 * i);
   }
   f.datatype = field_at<std::int16_t>(head, 12, swapped);
+  f.intent = field_at<std::int32_t>(head, 504, swapped);
   f.vox_offset = static_cast<double>(field_at<std::int64_t>(head, 168, swapped));
   f.slope = real(176);
   f.intercept = real(184);
@@ -276,6 +279,9 @@ NiftiHeader scan_nifti(const fs::path& given) {
                     "'dim[0]' is " + std::to_string(f.dim[0]) + "; 1 to 7 dimensions are possible");
   for (std::size_t axis = 1; axis <= static_cast<std::size_t>(f.dim[0]); ++axis)
     header.dims[axis - 1] = f.dim[axis];
+  if (f.intent >= 3000 && f.intent < 3100)
+    throw FileError(path.string(), "'intent_code' " + std::to_string(f.intent) +
+                                       " is CIFTI (values on brain surfaces), which is no volume");
   set_type(path, f.datatype, header);
   const std::uintmax_t unit =
       size_of(header.stored_type) * static_cast<std::uintmax_t>(header.components_in_voxel);

@@ -1,7 +1,7 @@
-// NRRD and NHDR headers (format definition: https://teem.sourceforge.net/nrrd/format.html).
+#include "volume/nrrd_header.h"
+
 #include "core/errors.h"
 #include "core/text.h"
-#include "volume/file_checks.h"
 #include "volume/header_scan.h"
 
 #include <algorithm>
@@ -17,12 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t header_limit = std::size_t{4} << 20;
-
-struct NrrdHeader {
-  std::map<std::string, std::string> fields; ///< lower-case name → text
-  std::vector<std::string> listed_files;     ///< lines after `data file: LIST`
-  std::size_t bytes = 0;                     ///< length of the header with its closing empty line
-};
 
 NrrdHeader parse(const fs::path& path) {
   std::istringstream in(head_of(path, header_limit));
@@ -176,88 +170,148 @@ std::vector<fs::path> data_files_of(const fs::path& path, const NrrdHeader& head
   return files;
 }
 
-/// Refuses what the axes say that a volume cannot be; tells whether the first axis is a list.
-bool check_axes(const fs::path& path, const NrrdHeader& header, const std::vector<long long>& sizes) {
-  const auto kinds_text = field_of(header, "kinds");
-  const std::vector<std::string> kinds =
-      kinds_text ? words_of(lower(*kinds_text)) : std::vector<std::string>();
-  for (std::size_t axis = 0; axis < kinds.size(); ++axis) {
-    if (kinds[axis] == "complex")
-      throw FileError(path.string(), "'kinds' says complex numbers; write magnitude or one part as scalars");
-    if (kinds[axis].find("matrix") != std::string::npos)
-      throw FileError(path.string(),
-                      "'kinds' says '" + kinds[axis] + "'; tensors are not supported, scalars are");
-    if (kinds[axis] == "time" && axis + 1 != sizes.size())
-      throw FileError(path.string(),
-                      "'kinds' has time on axis " + std::to_string(axis) + "; time must be the last axis");
-  }
-  if (const auto spacings = field_of(header, "spacings")) {
-    const std::vector<double> values = numbers_of(path, "spacings", *spacings);
-    for (const double value : values) {
-      // NaN is the format's word for "this axis has no spacing" (colour, time); refused later on an axis of
-      // space, where it would be a guess.
-      if (std::isinf(value) || value == 0)
-        throw FileError(path.string(), "'spacings' holds " + number_text(value) +
-                                           "; every spacing must be a finite number other than 0");
-    }
-    const auto is_space = [&](std::size_t axis) {
-      if (axis < kinds.size())
-        return kinds[axis] == "space" || kinds[axis] == "domain";
-      return sizes.size() <= 3;
-    };
-    for (std::size_t axis = 0; axis < values.size(); ++axis) {
-      if (std::isnan(values[axis]) && is_space(axis))
-        throw FileError(path.string(), "'spacings' is nan on axis " + std::to_string(axis) +
-                                           "; give the distance between its voxels");
+long long skip_of(const fs::path& path, const NrrdHeader& header, const std::string& name,
+                  const std::string& synonym, long long least) {
+  const auto text = field_of(header, name, synonym);
+  if (!text)
+    return 0;
+  const auto skip = integers_of(path, name, *text);
+  if (skip.size() != 1 || skip[0] < least)
+    throw FileError(path.string(),
+                    "'" + name + ": " + one_line(*text) + "' must be " + std::to_string(least) + " or more");
+  return skip[0];
+}
+
+/// The words of `space directions`: "(1,0,0)" or "none". Blanks inside the brackets are allowed.
+std::vector<std::string> direction_words(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < text.size();) {
+    if (text[at] == '(') {
+      const std::size_t close = std::min(text.find(')', at), text.size() - 1);
+      words.push_back(text.substr(at, close + 1 - at));
+      at = close + 1;
+    } else if (text[at] == ' ' || text[at] == '\t') {
+      ++at;
+    } else {
+      const std::size_t end = std::min(text.find_first_of(" \t(", at), text.size());
+      words.push_back(text.substr(at, end - at));
+      at = end;
     }
   }
-  return !kinds.empty() && kinds[0] == "list";
+  return words;
+}
+
+NrrdHeader::Axis axis_of_kind(const fs::path& path, const std::string& kind) {
+  using Axis = NrrdHeader::Axis;
+  if (kind == "complex")
+    throw FileError(path.string(), "'kinds' says complex numbers; write magnitude or one part as scalars");
+  if (kind.find("matrix") != std::string::npos)
+    throw FileError(path.string(), "'kinds' says '" + kind + "'; tensors are not supported, scalars are");
+  if (kind == "space" || kind == "domain" || kind == "???" || kind == "none")
+    return Axis::space;
+  return kind == "time" || kind == "list" ? Axis::frame : Axis::component;
+}
+
+/// What each axis is, by its kind, else by having a direction, else by its place.
+std::vector<NrrdHeader::Axis> axes_of(const fs::path& path, const NrrdHeader& header) {
+  using Axis = NrrdHeader::Axis;
+  std::vector<Axis> axes(header.sizes.size(), Axis::space);
+  const auto kinds = field_of(header, "kinds");
+  const auto directions = field_of(header, "space directions");
+  if (kinds) {
+    const auto words = words_of(lower(*kinds));
+    if (words.size() != axes.size())
+      throw FileError(path.string(), "'kinds' has " + std::to_string(words.size()) + " words for " +
+                                         std::to_string(axes.size()) + " axes");
+    for (std::size_t axis = 0; axis < axes.size(); ++axis)
+      axes[axis] = axis_of_kind(path, words[axis]);
+  } else if (directions) {
+    const auto words = direction_words(*directions);
+    const bool any = std::any_of(words.begin(), words.end(), [](const auto& w) { return w[0] == '('; });
+    for (std::size_t axis = 0; any && axis < axes.size() && axis < words.size(); ++axis) {
+      if (words[axis][0] != '(')
+        axes[axis] = axis == 0 && header.sizes[0] <= 4 ? Axis::component : Axis::frame;
+    }
+  }
+  if (axes.size() == 4 && std::count(axes.begin(), axes.end(), Axis::space) == 4)
+    axes[3] = Axis::frame;
+  const auto count = [&](Axis kind) { return std::count(axes.begin(), axes.end(), kind); };
+  if (count(Axis::space) < 1 || count(Axis::space) > 3 || count(Axis::frame) > 1 ||
+      count(Axis::component) > 1)
+    throw FileError(path.string(), "has " + std::to_string(count(Axis::space)) + " axes of space, " +
+                                       std::to_string(count(Axis::frame)) + " of time or lists and " +
+                                       std::to_string(count(Axis::component)) +
+                                       " of components; up to three, one and one are supported");
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    if (axes[axis] == Axis::component && header.sizes[axis] > 4)
+      throw FileError(path.string(),
+                      "has " + std::to_string(header.sizes[axis]) + " components; 1 to 4 are supported");
+    if (axes[axis] == Axis::frame && axis != 0 && axis + 1 != axes.size())
+      throw FileError(path.string(), "has its frames on axis " + std::to_string(axis) +
+                                         "; they must be the first or the last axis");
+  }
+  return axes;
+}
+
+void check_spacings(const fs::path& path, const NrrdHeader& header) {
+  const auto spacings = field_of(header, "spacings");
+  if (!spacings)
+    return;
+  const std::vector<double> values = numbers_of(path, "spacings", *spacings);
+  for (std::size_t axis = 0; axis < values.size() && axis < header.axes.size(); ++axis) {
+    // NaN is the format's word for "this axis has no spacing": right for colour and time only.
+    const bool space = header.axes[axis] == NrrdHeader::Axis::space;
+    if (std::isinf(values[axis]) || values[axis] == 0 || (space && std::isnan(values[axis])))
+      throw FileError(path.string(), "'spacings' is " + number_text(values[axis]) + " on axis " +
+                                         std::to_string(axis) + "; a finite number other than 0 is needed");
+  }
 }
 
 } // namespace
 
-HeaderScan scan_nrrd(const fs::path& path) {
+NrrdHeader parse_nrrd(const fs::path& path) {
   const std::uintmax_t file_bytes = require_file(path);
-  const std::string magic = head_of(path, 8);
-  if (magic.rfind("NRRD000", 0) != 0)
+  if (head_of(path, 8).rfind("NRRD000", 0) != 0)
     throw FileError(path.string(), "does not start with 'NRRD000'; it is no NRRD file");
-  const NrrdHeader header = parse(path);
-
+  NrrdHeader header = parse(path);
   const auto dimension = integers_of(path, "dimension", required_field(path, header, "dimension"));
-  const auto sizes = integers_of(path, "sizes", required_field(path, header, "sizes"));
+  header.sizes = integers_of(path, "sizes", required_field(path, header, "sizes"));
   if (dimension.size() != 1 || dimension[0] < 1 || dimension[0] > 5)
     throw FileError(path.string(), "'dimension' is '" + one_line(*field_of(header, "dimension")) +
                                        "'; 1 to 5 are supported");
-  if (sizes.size() != static_cast<std::size_t>(dimension[0]))
-    throw FileError(path.string(), "'sizes' has " + std::to_string(sizes.size()) +
+  if (header.sizes.size() != static_cast<std::size_t>(dimension[0]))
+    throw FileError(path.string(), "'sizes' has " + std::to_string(header.sizes.size()) +
                                        " numbers but 'dimension' is " + std::to_string(dimension[0]));
-  const std::uintmax_t scalar = scalar_bytes_of(path, required_field(path, header, "type"));
-  const Encoding encoding = encoding_of(path, required_field(path, header, "encoding"));
-  if (scalar > 1 && (encoding == Encoding::raw || encoding == Encoding::deflate) &&
-      !field_of(header, "endian"))
-    throw FileError(path.string(), "the header has no 'endian'; numbers of " + std::to_string(scalar) +
-                                       " bytes need it (little or big)");
-  HeaderScan scan;
-  scan.frames_first = check_axes(path, header, sizes);
-  scan.data_files = data_files_of(path, header);
-
-  const std::uintmax_t claimed = claimed_bytes(path, "sizes", sizes, scalar);
-  std::uintmax_t stored = 0;
-  for (const fs::path& file : scan.data_files)
-    stored += fs::file_size(file);
-  if (scan.data_files.empty())
-    stored = file_bytes - std::min<std::uintmax_t>(file_bytes, header.bytes);
-  const auto skip_text = field_of(header, "byte skip", "byteskip");
-  if (skip_text && encoding == Encoding::raw) {
-    const auto skip = integers_of(path, "byte skip", *skip_text);
-    if (skip.size() != 1 || skip[0] < -1)
-      throw FileError(path.string(), "'byte skip: " + one_line(*skip_text) + "' must be -1 or more");
-    const std::uintmax_t skipped = (skip[0] > 0 ? static_cast<std::uintmax_t>(skip[0]) : 0) *
-                                   std::max<std::uintmax_t>(1, scan.data_files.size());
-    stored -= std::min(stored, skipped);
+  header.scalar_bytes = scalar_bytes_of(path, required_field(path, header, "type"));
+  header.encoding = encoding_of(path, required_field(path, header, "encoding"));
+  const bool binary = header.encoding == Encoding::raw || header.encoding == Encoding::deflate;
+  if (header.scalar_bytes > 1 && binary) {
+    const std::string endian = lower(field_of(header, "endian").value_or(""));
+    if (endian != "little" && endian != "big")
+      throw FileError(path.string(), "'endian' must be little or big for numbers of " +
+                                         std::to_string(header.scalar_bytes) + " bytes");
   }
-  check_claim(path, "sizes", claimed, stored, encoding, scalar);
-  return scan;
+  const std::uintmax_t claimed = claimed_bytes(path, "sizes", header.sizes, header.scalar_bytes);
+  header.axes = axes_of(path, header);
+  check_spacings(path, header);
+  header.line_skip = skip_of(path, header, "line skip", "lineskip", 0);
+  header.byte_skip = skip_of(path, header, "byte skip", "byteskip", -1);
+  header.data_files = data_files_of(path, header);
+
+  std::uintmax_t stored = 0;
+  for (const fs::path& file : header.data_files)
+    stored += fs::file_size(file);
+  if (header.data_files.empty())
+    stored = file_bytes - std::min<std::uintmax_t>(file_bytes, header.bytes);
+  if (header.encoding == Encoding::raw && header.byte_skip > 0) {
+    const std::uintmax_t files = std::max<std::uintmax_t>(1, header.data_files.size());
+    const auto skip = static_cast<std::uintmax_t>(header.byte_skip);
+    stored = skip > stored / files ? 0 : stored - skip * files;
+  }
+  check_claim(path, "sizes", claimed, stored, header.encoding, header.scalar_bytes);
+  return header;
 }
+
+HeaderScan scan_nrrd(const fs::path& path) { return {parse_nrrd(path).data_files}; }
 
 } // namespace slicelens

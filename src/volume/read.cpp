@@ -84,6 +84,20 @@ Kind kind_of(const VolumeSource& source, const fs::path& path) {
                   "PNG, TIFF or JPEG stacks; for headerless data give volume.size and volume.type)");
 }
 
+/// The one folder in `folder`, or nothing: series are often kept in a folder of their own beside notes.
+std::optional<fs::path> only_folder_in(const fs::path& folder) {
+  std::optional<fs::path> only;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (!entry.is_directory(error) || entry.is_symlink(error) || entry.path().filename().string()[0] == '.')
+      continue;
+    if (only)
+      return std::nullopt;
+    only = entry.path();
+  }
+  return only;
+}
+
 /// The images or DICOM files among `files` (a folder's or a pattern's).
 Input input_of_many(const VolumeSource& source, const std::vector<fs::path>& files) {
   std::map<std::string, std::vector<fs::path>> images;
@@ -98,6 +112,10 @@ Input input_of_many(const VolumeSource& source, const std::vector<fs::path>& fil
       dicom.push_back(file);
   }
   const std::string name = source.file.string();
+  if (images.empty() && dicom.empty()) {
+    if (const auto inner = only_folder_in(source.file))
+      return input_of_many(source, files_in(*inner));
+  }
   if (images.size() + (dicom.empty() ? 0 : 1) > 1)
     throw FileError(name, "holds several kinds of images; name one kind by a pattern such as '*.png'");
   if (!dicom.empty())

@@ -99,6 +99,29 @@ std::vector<std::byte> converted(const std::vector<std::byte>& scalars, ScalarTy
   return result;
 }
 
+/// GDCM gives 32-bit integers to what 16 stored bits could become by the rescale (a CT whose 16 bits are not
+/// used in full); when the values fit 16 bits they are kept in 16.
+void narrow(Volume& image) {
+  if (image.type != ScalarType::i32)
+    return;
+  const auto* const values = reinterpret_cast<const std::int32_t*>(image.voxels.data());
+  const auto [low, high] = std::minmax_element(values, values + image.voxels.size() / sizeof(std::int32_t));
+  if (*low < std::numeric_limits<std::int16_t>::min() || *high > std::numeric_limits<std::int16_t>::max())
+    return;
+  image.voxels = converted(image.voxels, ScalarType::i32, ScalarType::i16);
+  image.type = ScalarType::i16;
+}
+
+/// Warnings that every slice repeats are passed on once.
+Progress saying_once(const Progress& progress) {
+  Progress once = progress;
+  once.warn = [progress, said = std::set<std::string>()](const std::string& message) mutable {
+    if (said.insert(message.substr(std::min(message.size(), message.find(": ")))).second)
+      report_warning(progress, message);
+  };
+  return once;
+}
+
 /// Reads one file's picture (or pictures) after the check that it is what the first one was.
 Volume read_one(const DicomFile& slice, const Progress& progress) {
   Volume image;
@@ -112,6 +135,7 @@ Volume read_one(const DicomFile& slice, const Progress& progress) {
                       "its Rows and Columns do not fit its pixel data; the file is damaged");
     read_frame(*io, slice.file, 0, image);
   });
+  narrow(image);
   return image;
 }
 
@@ -232,15 +256,16 @@ std::vector<fs::path> dicom_files(const std::vector<fs::path>& candidates, const
 }
 
 Volume read_dicom(const std::vector<fs::path>& candidates, const fs::path& named, const VolumeSource& source,
-                  const Progress& progress) {
+                  const Progress& caller) {
+  const Progress progress = saying_once(caller);
   const DicomStack stack = stack_for(candidates, named, source, progress);
   const std::size_t count = stack.slices.size();
   Volume volume = read_one(stack.slices.front(), progress);
   volume.format = "DICOM";
+  volume.frames = stack.frames;
   if (count == 1)
     return volume;
-  Volume first = volume;
-  const std::size_t slice_bytes = voxel_bytes(first);
+  const std::size_t slice_bytes = voxel_bytes(volume);
   volume.dims[2] = count;
   check_memory(source.file, checked_product(slice_bytes, count, source.file.string()));
   volume.voxels.resize(slice_bytes * count);
@@ -249,7 +274,6 @@ Volume read_dicom(const std::vector<fs::path>& candidates, const fs::path& named
     place_slice(volume, k, slice, stack.slices[k].file);
     report_progress(progress, "load", static_cast<double>(k + 1) / static_cast<double>(count));
   }
-  volume.frames = stack.frames;
   if (stack.spacing) {
     volume.spacing.z = *stack.spacing;
     volume.direction[2] = *stack.axis;

@@ -4,7 +4,6 @@
 #include "volume/readers.h"
 
 #include <itkMetaImageIO.h>
-#include <itkNrrdImageIO.h>
 #include <itkVTKImageIO.h>
 
 #include <algorithm>
@@ -17,33 +16,28 @@ namespace fs = std::filesystem;
 namespace {
 
 Volume read_with(itk::ImageIOBase& io, const fs::path& path, std::size_t frame, const std::string& format,
-                 bool frames_first, const Progress& progress) {
+                 const Progress& progress) {
   Volume volume;
   with_libraries(path, progress, [&] {
     io.SetFileName(path.string());
     io.ReadImageInformation();
-    volume = header_of(io, path, frames_first);
+    volume = header_of(io, path);
     volume.format = format;
-    read_frame(io, path, frame, volume, frames_first);
+    read_frame(io, path, frame, volume);
   });
   return volume;
 }
 
 } // namespace
 
-Volume read_nrrd(const fs::path& path, std::size_t frame, const Progress& progress) {
-  const HeaderScan scan = scan_nrrd(path);
-  return read_with(*itk::NrrdImageIO::New(), path, frame, "NRRD", scan.frames_first, progress);
-}
-
 Volume read_meta(const fs::path& path, std::size_t frame, const Progress& progress) {
   scan_meta(path);
-  return read_with(*itk::MetaImageIO::New(), path, frame, "MetaImage", false, progress);
+  return read_with(*itk::MetaImageIO::New(), path, frame, "MetaImage", progress);
 }
 
 Volume read_vtk(const fs::path& path, std::size_t frame, const Progress& progress) {
   scan_vtk(path);
-  return read_with(*itk::VTKImageIO::New(), path, frame, "VTK", false, progress);
+  return read_with(*itk::VTKImageIO::New(), path, frame, "VTK", progress);
 }
 
 } // namespace slicelens

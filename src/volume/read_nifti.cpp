@@ -74,6 +74,14 @@ Volume place_of(const NiftiHeader& header, const fs::path& path) {
   return volume;
 }
 
+/// Axis 5 holds a vector's components, each a whole volume (nifti1.h, "dim[5]"), when there are 2 to 4 and no
+/// time axis; further axes count frames.
+std::size_t planes_of(const NiftiHeader& header) {
+  const bool vector =
+      header.dims[3] == 1 && header.dims[4] >= 2 && header.dims[4] <= 4 && header.components_in_voxel == 1;
+  return vector ? static_cast<std::size_t>(header.dims[4]) : 1;
+}
+
 } // namespace
 
 Volume read_nifti_directly(const fs::path& path, std::size_t frame, const Progress& progress) {
@@ -84,12 +92,16 @@ Volume read_nifti_directly(const fs::path& path, std::size_t frame, const Progre
   volume.type = header.stored_type;
   volume.components = header.components_in_voxel;
   volume.format = "NIfTI";
-  // Axes 4 to 7 count frames here, dim[5] included: components in separate blocks are ITK's case.
+  const std::size_t planes = planes_of(header);
   for (std::size_t axis = 3; axis < 7; ++axis)
     volume.frames = checked_product(volume.frames, static_cast<std::size_t>(header.dims[axis]), "frames");
+  volume.frames /= planes;
   if (frame >= volume.frames)
     throw UsageError("volume.frame is " + std::to_string(frame) + " but " + path.string() + " has " +
                      std::to_string(volume.frames) + " frame(s), counted from 0");
+  const std::size_t plane_bytes = voxel_bytes(volume);
+  if (planes > 1)
+    volume.components = static_cast<int>(planes);
   const std::size_t bytes = voxel_bytes(volume);
   check_memory(path, bytes);
   const std::unique_ptr<gzFile_s, GzClose> file(::gzopen(header.data_file.c_str(), "rb"));
@@ -99,7 +111,17 @@ Volume read_nifti_directly(const fs::path& path, std::size_t frame, const Progre
   if (::gzseek(file.get(), static_cast<z_off_t>(start), SEEK_SET) < 0)
     throw FileError(header.data_file.string(), "ends before its voxels; the file is truncated or damaged");
   volume.voxels.resize(bytes);
-  read_all(file.get(), header.data_file, volume.voxels.data(), bytes);
+  if (planes == 1) {
+    read_all(file.get(), header.data_file, volume.voxels.data(), bytes);
+  } else {
+    std::vector<std::byte> plane(plane_bytes);
+    const std::size_t scalar = size_of(volume.type);
+    for (std::size_t p = 0; p < planes; ++p) {
+      read_all(file.get(), header.data_file, plane.data(), plane_bytes);
+      for (std::size_t i = 0; i < plane_bytes / scalar; ++i)
+        std::memcpy(volume.voxels.data() + (i * planes + p) * scalar, plane.data() + i * scalar, scalar);
+    }
+  }
   if (header.swapped)
     swap_bytes(volume.voxels, size_of(volume.type));
   if (header.slope != 1 || header.intercept != 0)
@@ -109,7 +131,9 @@ Volume read_nifti_directly(const fs::path& path, std::size_t frame, const Progre
 
 Volume read_nifti(const fs::path& path, std::size_t frame, const Progress& progress) {
   const NiftiHeader header = scan_nifti(path);
-  if (header.sheared || header.version == 2)
+  // ITK refuses shear and NIfTI-2, and overruns its buffer for some files with more than four axes.
+  const bool many_axes = header.dims[4] > 1 || header.dims[5] > 1 || header.dims[6] > 1;
+  if (header.sheared || header.version == 2 || many_axes)
     return read_nifti_directly(path, frame, progress);
   Volume volume;
   with_libraries(path, progress, [&] {
