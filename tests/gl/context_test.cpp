@@ -149,7 +149,7 @@ TEST_CASE("a missing function of OpenGL 3.3 is refused by name") {
 }
 
 TEST_CASE("limits are those that OpenGL 3.3 guarantees, or better") {
-  // Table 6.x of the OpenGL 3.3 specification ("Implementation dependent values").
+  // OpenGL 3.3 core specification, section 6.2, the tables of implementation-dependent values.
   const gl::Limits limits = test_context().info().limits;
   CHECK(limits.texture_size >= 1024);
   CHECK(limits.texture_size_3d >= 256);
