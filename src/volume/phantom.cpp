@@ -104,7 +104,7 @@ const std::vector<Recipe>& recipes() {
         "two slabs of different value, front and back: shows the order of compositing",
         "v = 1 for t_y < 1/2, 2 for t_y > 1/2, 1.5 at 1/2",
         {128, 128, 128},
-        "grey-ramp"},
+        "halves"},
        ScalarType::f32,
        glm::dvec3(1),
        0,

@@ -208,6 +208,7 @@ TEST_CASE("every preset is valid, visible, and has a faithful table") {
                                         "DTI-FA-Brain",
                                         "US-Fetal",
                                         "cast-and-steel",
+                                        "halves",
                                         "grey-ramp",
                                         "fog",
                                         "opaque"};
@@ -236,9 +237,9 @@ TEST_CASE("every preset is valid, visible, and has a faithful table") {
 
 TEST_CASE("presets show the tissues they are named for") {
   const auto opacity = [](const char* name, double hu) { return evaluate(preset(name), hu).a; };
-  // Air around the patient stays clear in all but CT-Air; three voxels of cortical bone hide what is behind.
+  // Air around the patient stays clear; three voxels of cortical bone hide what is behind.
   for (const PresetInfo& info : presets()) {
-    if (info.relative || info.name == "CT-Air" || info.name == "CT-X-ray")
+    if (info.relative || info.name == "CT-X-ray")
       continue;
     INFO(info.name);
     CHECK(opacity(info.name.c_str(), -1000) == 0);
@@ -257,6 +258,8 @@ TEST_CASE("presets show the tissues they are named for") {
   check_rgba(evaluate(grey, 200), {.5, .5, .5, .05});
   CHECK(evaluate(preset("opaque", -.1, .1), 0).a == 1);
   CHECK(evaluate(preset("opaque", -.1, .1), -1e-6).a == 0);
+  check_rgba(evaluate(preset("halves", 1, 2), 1), {.9, .25, .15, .03});
+  check_rgba(evaluate(preset("halves", 1, 2), 1.5), {.2, .45, .95, .03});
   // A constant volume is at the visible end.
   CHECK(evaluate(preset("fog", 1, 1), 1).a == Approx(.01));
   CHECK(evaluate(preset("opaque", 1, 1), 1).a == 1);
