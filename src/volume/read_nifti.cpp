@@ -136,17 +136,28 @@ Volume read_nifti(const fs::path& path, std::size_t frame, const Progress& progr
   if (header.sheared || header.version == 2 || many_axes)
     return read_nifti_directly(path, frame, progress);
   Volume volume;
+  bool itk_refuses = false;
   with_libraries(path, progress, [&] {
     const auto io = itk::NiftiImageIO::New();
     const std::string name = nifti_header_file(path).string();
     io->SetFileName(name);
     if (!io->CanReadFile(name.c_str()))
       throw FileError(path.string(), "is no NIfTI file that can be read; its header is damaged");
-    io->ReadImageInformation();
+    try {
+      io->ReadImageInformation();
+    } catch (const itk::ExceptionObject& error) {
+      // Also thrown when pixdim and sform disagree about the voxel sizes; the sform is taken then.
+      if (std::string(error.GetDescription()).find("orthonormal") == std::string::npos)
+        throw;
+      itk_refuses = true;
+      return;
+    }
     volume = header_of(*io, path);
     volume.format = "NIfTI";
     read_frame(*io, path, frame, volume);
   });
+  if (itk_refuses)
+    return read_nifti_directly(path, frame, progress);
   return volume;
 }
 
