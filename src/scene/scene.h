@@ -73,7 +73,7 @@ struct RenderSettings {
   Shading shading = Shading::none;
   Gradient gradient = Gradient::central;
   Filter filter = Filter::linear;
-  Target target = Target::rgba16f;
+  Target target = Target::rgba32f;
   VolumeTexture volume_texture = VolumeTexture::automatic;
   TransferTexture transfer_texture = TransferTexture::rgba32f;
   double early_termination = 1; ///< rays stop when their opacity reaches this; 1: never

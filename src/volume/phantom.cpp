@@ -143,7 +143,7 @@ const std::vector<Recipe>& recipes() {
         "a machined block with bores, thin sleeves, springs and valves; 8 bit, like the well-known CT",
         "aluminium 120, cast walls 150, steel inserts 225 in air 8; see phantom_engine.cpp",
         {256, 256, 128},
-        "MR-Default"},
+        "cast-and-steel"},
        ScalarType::u8,
        glm::dvec3(1, 1, 0.5),
        0,

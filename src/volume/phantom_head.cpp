@@ -65,38 +65,40 @@ void put_brain(double& v, const dvec3& p, double depth, double w, const Tissues&
   const double surface = depth - 2.5;
   if (surface < -w)
     return;
-  const bool cerebellum = p.y > 14 && p.z < 18 - 0.25 * (p.y - 14) && p.z < 14;
-  double sulcus = 1e3; // distance to the nearest sulcus, where one reaches this deep
+  // The tentorium: the brain keeps a millimetre off it on both sides.
+  const double below = ellipsoid(p - dvec3(0, 50, -8), {48, 37, 27});
+  const bool cerebellum = below < 0;
+  double sulcus = std::abs(below) - 0.9; // distance to the nearest sulcus or fissure
   double cortex = 3.2;
   if (cerebellum) {
     cortex = 1.6;
-    if (surface < 14)
-      sulcus = std::abs(std::sin(1.05 * (p.z + 0.25 * p.y))) * 2 - 0.25 + 0.25 * std::max(0.0, surface - 8);
-  } else if (surface < 22) {
-    sulcus = std::abs(folds(p, 30)) * 3.9 - 0.9 + 0.3 * std::max(0.0, surface - 9);
+    if (surface < 16)
+      sulcus = std::min(sulcus, std::abs(std::sin(0.9 * (p.z + 0.3 * p.y))) * 2.2 - 0.4 +
+                                    0.3 * std::max(0.0, surface - 8));
+  } else {
+    if (surface < 22)
+      sulcus = std::min(sulcus, std::abs(folds(p, 30)) * 3.9 - 0.9 + 0.3 * std::max(0.0, surface - 9));
+    // Between the hemispheres, as far as the corpus callosum.
+    const double callosum = glm::length(glm::dvec2((p.y - 6) / 42, (p.z - 18) / 34)) * 36 - 36;
+    sulcus = std::min(sulcus, std::max({std::abs(p.x) - 1.1, -callosum, 16 - p.z}));
   }
-  // Between the hemispheres, above the corpus callosum; and the Sylvian fissure.
-  const double fissure =
-      std::max(std::abs(p.x) - 1.1,
-               glm::length(glm::dvec2(p.y - 6, p.z - 18) / glm::dvec2(44, 36)) < 1 ? 1e3 : 14 - p.z);
-  sulcus = std::min(sulcus, cerebellum ? 1e3 : fissure);
   const double brain = std::min(surface, sulcus);
   put(v, t.grey, inside(-brain, w));
   if (brain > cortex - w)
     put(v, t.white, inside(cortex - brain, w));
-  if (surface > 18) {
+  if (surface > 2) {
     put(v, t.grey, inside(head::deep_grey(p), w));
     put(v, t.fluid, inside(head::ventricles(p), w));
   }
 }
 
 /// Orbits, air spaces, bone and teeth, painted over the soft tissue.
-void put_face(double& v, const dvec3& p, double wall, double w, const Tissues& t) {
+void put_face(double& v, const dvec3& p, double surface, double wall, double w, const Tissues& t) {
   const double orbit = head::orbit(p);
-  const double air = head::airways(p);
-  double bone = head::bone(p, wall);
+  const double air = head::airways(p, surface);
+  double bone = meet(head::bone(p, wall), surface + 3.5, 3);
   bone = std::max({bone, -orbit, 0.8 - air, -head::spinal_canal(p)});
-  const double socket = inside(std::max(orbit, -75 - p.y), w);
+  const double socket = inside(std::max(orbit, surface + 4), w);
   if (socket > 0) {
     put(v, t.fat, socket);
     put(v, t.muscle, inside(head::orbital_muscle(p), w));
@@ -115,7 +117,7 @@ void put_face(double& v, const dvec3& p, double wall, double w, const Tissues& t
         std::max(wall > 0 && wall < 7 ? std::max(1.9 - wall, bone + 1.9) : bone + 3.2, bone + 1.9);
     put(v, t.spongy, inside(table, w));
   }
-  put(v, t.tooth, inside(head::tooth(p), w));
+  put(v, t.tooth, inside(std::max(head::tooth(p), surface + 1.5), w));
   put(v, t.air, inside(air, w));
 }
 
@@ -128,8 +130,10 @@ double head_at(const dvec3& p, double w, const Tissues& t, const Vessels& vessel
   if (wall > -w) {
     put(v, t.skin, inside(surface, w));
     put(v, t.fat, inside(surface + 2.2, w));
-    put(v, t.muscle, inside(surface + (p.z > 20 ? 4.2 : 5.5), w));
-    put_face(v, p, wall, w, t);
+    const double scalp =
+        std::clamp((p.z + 10) / 60, 0.0, 1.0); // the fat is thinner on the vault than on the face
+    put(v, t.muscle, inside(surface + 5.5 - 1.3 * scalp, w));
+    put_face(v, p, surface, wall, w, t);
     const double canal = head::spinal_canal(p);
     put(v, t.fluid, inside(canal, w));
     put(v, t.white, inside(canal + 3.5, w));
@@ -137,7 +141,7 @@ double head_at(const dvec3& p, double w, const Tissues& t, const Vessels& vessel
   if (wall < w)
     put_brain(v, p, -wall, w, t);
   if (!vessels.empty())
-    put(v, t.blood, inside(vessel_distance(vessels, p), w));
+    put(v, t.blood, inside(std::max(vessel_distance(vessels, p), surface + 2.5), w));
   return v;
 }
 
@@ -147,7 +151,7 @@ PhantomRows head_rows(bool magnetic_resonance) {
   const auto tree = std::make_shared<const Vessels>(head::arteries());
   const Tissues tissues = magnetic_resonance ? kMr : kCt;
   return [tree, tissues](const PhantomGrid& grid, std::size_t j, std::size_t k, std::span<double> row) {
-    const double w = std::max({grid.spacing(0), grid.spacing(1), grid.spacing(2)});
+    const double w = 1.2 * std::max({grid.spacing(0), grid.spacing(1), grid.spacing(2)});
     dvec3 p = (dvec3(0, grid.texture(1, j), grid.texture(2, k)) - 0.5) * grid.edges;
     Vessels vessels;
     select_row(*tree, p.y, p.z, w, vessels);

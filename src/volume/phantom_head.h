@@ -20,7 +20,7 @@ double spinal_canal(const glm::dvec3& p);
 double skin(const glm::dvec3& p);
 
 /// Skull, jaw and neck vertebrae, before the air spaces, orbits and the cavity are taken out; `intracranial`
-/// is cavity(p).
+/// is cavity(p). Not yet limited to the inside of the skin.
 double bone(const glm::dvec3& p, double intracranial);
 
 /// The orbits' cones.
@@ -28,8 +28,9 @@ double orbit(const glm::dvec3& p);
 
 double tooth(const glm::dvec3& p);
 
-/// Air inside the head: nasal passages with septum and turbinates, sinuses, throat, ear canals.
-double airways(const glm::dvec3& p);
+/// Air inside the head: nasal passages with septum and turbinates, sinuses, throat, ear canals; `surface` is
+/// skin(p).
+double airways(const glm::dvec3& p, double surface);
 
 double eyeball(const glm::dvec3& p);
 double eye_lens(const glm::dvec3& p);

@@ -23,11 +23,13 @@ double chain(const dvec3& p, const dvec3 (&points)[N], double r) {
   return d;
 }
 
+constexpr double kEarScale = 0.88;
+
 double ear(const dvec3& m) {
   // Ear frame: u across the ear's plate, v backward, w upward; the plate stands off by 25° and leans back.
-  const dvec3 q = m - dvec3(81, 18, -2);
+  const dvec3 q = (m - dvec3(78, 17, -3)) / kEarScale;
   if (glm::dot(q, q) > 60 * 60)
-    return glm::length(q) - 40;
+    return (glm::length(q) - 40) * kEarScale;
   const double u = 0.906 * q.x - 0.423 * q.y;
   const double v0 = 0.423 * q.x + 0.906 * q.y;
   const double v = 0.97 * v0 - 0.24 * q.z;
@@ -40,8 +42,8 @@ double ear(const dvec3& m) {
   const double behind_front = -8 - v; // the inner folds stop short of the cheek
   double d = blend(plate, helix, 3);
   d = blend(d, std::max(antihelix, behind_front), 2);
-  d = blend(d, sphere(m, dvec3(80, 6, -6), 4.5), 4); // tragus
-  return d;
+  d = blend(d, glm::length(q - dvec3(-1, -12, -4)) - 4.5, 4); // tragus
+  return d * kEarScale;
 }
 
 double lids_and_eye(double face, const dvec3& m) {
@@ -75,7 +77,9 @@ double lips(const dvec3& m) {
 
 double cavity(const dvec3& p) {
   const dvec3 m = mirrored(p);
-  double cerebrum = ellipsoid(p - dvec3(0, 8, 36), {66, 84, 70});
+  // An egg from above: narrower at the forehead than at the parietal bones.
+  double cerebrum = blend(ellipsoid(p - dvec3(0, -12, 36), {57, 64, 64}),
+                          ellipsoid(p - dvec3(0, 24, 36), {67, 68, 69}), 24);
   if (cerebrum > 40)
     return cerebrum;
   cerebrum = meet(cerebrum, 12 - 0.05 * p.y - p.z, 12); // the floor of the anterior fossa
@@ -90,14 +94,17 @@ double spinal_canal(const dvec3& p) {
 
 double skin(const dvec3& p) {
   const dvec3 m = mirrored(p);
-  const double cranium = ellipsoid(p - dvec3(0, 8, 36), {79, 97, 84});
+  const double cranium = blend(ellipsoid(p - dvec3(0, -12, 36), {70, 77, 78}),
+                               ellipsoid(p - dvec3(0, 24, 36), {80, 81, 83}), 24);
   if (p.z > 60)
     return cranium;
-  double d = ellipsoid(p - dvec3(0, -34, -34), {62, 57, 66});
+  double d = ellipsoid(p - dvec3(0, -34, -32), {61, 58, 64});
   d = blend(d, ellipsoid(p - dvec3(0, -48, -80), {45, 41, 29}), 14);
-  d = blend(d, ellipsoid(m - dvec3(50, -26, -52), {15, 32, 38}), 14); // masseter
-  d = blend(d, sphere(p, {0, -84, -95}, 11), 12);                     // chin
-  d = blend(d, ellipsoid(m - dvec3(44, -60, -17), {18, 19, 17}), 12); // cheekbone
+  d = blend(d, ellipsoid(m - dvec3(46, -26, -44), {17, 34, 38}), 14); // masseter and the side of the jaw
+  d = blend(d, ellipsoid(m - dvec3(50, -20, -12), {21, 42, 24}), 12); // over the zygomatic arch
+  d = blend(d, ellipsoid(p - dvec3(0, 46, -4), {64, 52, 44}), 14);    // nape
+  d = blend(d, ellipsoid(p - dvec3(0, -85, -95), {17, 13, 13}), 12);  // chin
+  d = blend(d, ellipsoid(m - dvec3(46, -58, -15), {19, 20, 18}), 12); // cheekbone
   d = blend(d, capsule(m, {8, -86, 22}, {37, -75, 22}, 6), 10);       // brow
   d = blend(d, cranium, 16);
   d = blend(d, capsule(p * dvec3(1, 0.97, 1), {0, 14, -40}, {0, 30, -200}, 55), 22); // neck
@@ -107,8 +114,8 @@ double skin(const dvec3& p) {
     d = blend(d, nose(m), 8);
     d = cut(d, ellipsoid(p - dvec3(0, -104, -46), {3.5, 8, 8}), 4); // philtrum
     d = blend(d, lips(m), 4);
-    d = cut(d, ellipsoid(p - dvec3(0, -94, -59.5), {21, 9, 0.9}), 2);
-    d = cut(d, ellipsoid(p - dvec3(0, -102, -76), {22, 9, 6}), 8); // below the lower lip
+    d = cut(d, box(p - dvec3(0, -99, -59.5), {19, 9, 0.8}, 0.8), 2);
+    d = cut(d, ellipsoid(p - dvec3(0, -103, -76), {22, 9, 6}), 8); // below the lower lip
   }
   return blend(d, ear(m), 5);
 }
@@ -118,7 +125,7 @@ namespace {
 double face_bone(const dvec3& m) {
   double d = ellipsoid(m - dvec3(0, -56, -20), {38, 29, 34});
   d = blend(d, ellipsoid(m - dvec3(0, -20, -16), {34, 26, 18}), 8); // sphenoid and pterygoid
-  d = blend(d, capsule(m, {0, -78, 20}, {36, -71, 22}, 7.5), 6);    // supraorbital bar
+  d = blend(d, capsule(m, {0, -76, 21}, {36, -68, 22}, 8.5), 6);    // supraorbital bar
   d = blend(d, capsule(m, {36, -71, 22}, {52, -60, 12}, 6.5, 5), 5);
   d = blend(d, capsule(m, {52, -60, 12}, {49, -63, -12}, 5), 5);  // lateral orbital rim
   d = blend(d, capsule(m, {49, -63, -14}, {24, -78, -18}, 6), 6); // lower orbital rim
@@ -190,12 +197,12 @@ double tooth(const dvec3& p) {
   if (p.z < -88 || p.z > -40 || p.y > -40)
     return 1e3;
   const dvec3 m = mirrored(p);
-  // Positions along the dental arch, y = −85 + x²/36, from the incisors to the second molar; half-widths.
+  // Positions along the dental arch, y = −82.5 + x²/38, from the incisors to the second molar; half-widths.
   constexpr double x[] = {4, 11.5, 18, 24, 29, 33.5, 37};
   constexpr double half_width[] = {3.9, 3.5, 3.7, 3.7, 3.8, 4.6, 4.6};
   double d = 1e3;
   for (int i = 0; i < 7; ++i) {
-    const double y = -84.5 + x[i] * x[i] / 38;
+    const double y = -82.5 + x[i] * x[i] / 38;
     const bool molar = i > 2;
     const dvec3 r(half_width[i], molar ? 4.4 : 3.1, 10.5);
     d = std::min(d, ellipsoid(m - dvec3(x[i], y - 1, -54), r));
@@ -211,26 +218,28 @@ double nasal_passage(const dvec3& p, const dvec3& m) {
   // Pear-shaped in the frontal plane, the same from the aperture to the throat.
   const double pear = capsule(dvec3(p.x, p.z, 0), {0, 2, 0}, {0, -25, 0}, 4, 11);
   double d = meet(pear, std::abs(p.y + 61) - 33, 5);
-  d = cut(d, std::abs(p.x) - 0.9, 1);                                    // septum
-  d = cut(d, capsule(m, {9, -80, -27}, {9, -38, -27}, 3.6), 1);          // lower turbinate
-  d = cut(d, capsule(m, {6.5, -76, -13}, {6.5, -38, -13}, 2.4), 1);      // middle turbinate
-  return std::min(d, capsule(m, {6, -108, -36}, {6, -90, -24}, 3.2, 4)); // nostrils
+  d = cut(d, std::abs(p.x) - 0.9, 1);                               // septum
+  d = cut(d, capsule(m, {9, -80, -27}, {9, -38, -27}, 3.6), 1);     // lower turbinate
+  d = cut(d, capsule(m, {6.5, -76, -13}, {6.5, -38, -13}, 2.4), 1); // middle turbinate
+  return d;
 }
 
 } // namespace
 
-double airways(const dvec3& p) {
+double airways(const dvec3& p, double surface) {
   if (p.z > 40)
     return 1e3;
   const dvec3 m = mirrored(p);
   double d = nasal_passage(p, m);
   d = std::min(d, ellipsoid(m - dvec3(26, -57, -22), {11, 16, 13}));  // maxillary sinus
-  d = std::min(d, ellipsoid(m - dvec3(11, -80, 23), {9.5, 3.6, 9}));  // frontal sinus
+  d = std::min(d, ellipsoid(m - dvec3(10, -77, 22), {8, 3, 6}));      // frontal sinus
   d = std::min(d, ellipsoid(m - dvec3(7.5, -21, -11), {6.5, 10, 8})); // sphenoid sinus
   for (const double y : {-68.0, -56.0, -44.0})                        // ethmoid cells
     d = std::min(d, ellipsoid(m - dvec3(6.5, y, 5), {4.2, 5.2, 5.5}));
   for (const double z : {-34.0, -26.0, -18.0}) // mastoid cells
     d = std::min(d, sphere(m, {58, 22, z}, 2.8));
+  d = meet(d, surface + 3.5, 2);                                      // no wall thinner than that
+  d = std::min(d, capsule(m, {6, -108, -36}, {6, -94, -22}, 3.2, 4)); // nostrils
   const dvec3 throat[] = {{0, -30, -26}, {0, -13, -48}, {0, -9, -84}, {0, -14, -200}};
   d = std::min(d, chain(p, throat, 7));
   return std::min(d, capsule(m, {90, 9, -5}, {56, 13, -6}, 3.2)); // ear canal

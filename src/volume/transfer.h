@@ -94,8 +94,8 @@ struct PresetInfo {
   bool relative = false; ///< true: stretched over the data's range; false: absolute, in HU
 };
 
-/// The presets by the names that 3D Slicer's users know, with this project's own values, and grey-ramp, fog
-/// and opaque. Ordered as listed to users.
+/// The presets by the names that 3D Slicer's users know, with this project's own values, and cast-and-steel,
+/// grey-ramp, fog and opaque. Ordered as listed to users.
 const std::vector<PresetInfo>& presets();
 
 /// The transfer function of a preset. `data_min` and `data_max` (finite) are the range over which relative

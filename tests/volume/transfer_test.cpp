@@ -207,6 +207,7 @@ TEST_CASE("every preset is valid, visible, and has a faithful table") {
                                         "MR-T2-Brain",
                                         "DTI-FA-Brain",
                                         "US-Fetal",
+                                        "cast-and-steel",
                                         "grey-ramp",
                                         "fog",
                                         "opaque"};

@@ -97,7 +97,7 @@ public:
     const RenderResult rays = draw(scene.input, Pipeline::rays, progress);
     entry.slices_picture = save(slices.image, scene.name + "_slices.png");
     entry.rays_picture = save(rays.image, scene.name + "_rays.png");
-    entry.heat_map = save(heat_map(slices.image, rays.image, 8.0 / 255), scene.name + "_difference.png");
+    entry.heat_map = save(heat_map(slices.image, rays.image, 0.02), scene.name + "_difference.png");
     const glm::dvec3 background(scene.input.scene.render.background);
     entry.metrics = compare_images(slices.image, rays.image, background, background);
     entry.slices_seconds = slices.times.draw;
