@@ -33,7 +33,7 @@ struct DicomFile {
 
 /// Reads one header and checks that the pixel data can hold what it claims. Throws FileError when it is no
 /// DICOM image.
-DicomFile scan_dicom(const std::filesystem::path& path, const Progress& progress);
+DicomFile scan_dicom(const std::filesystem::path& path);
 
 /// A stack of slices: one frame of a series.
 struct DicomStack {

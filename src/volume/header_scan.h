@@ -1,9 +1,13 @@
-// What a look at a volume's header says before a library reads it: which files hold the voxels, and that
+// What a look at a volume's header says before a library reads it: which files hold the voxels, how, and that
 // those files can hold what the header claims. The libraries allocate what a header says, so this look comes
 // first. Private to src/volume.
 #pragma once
 
-#include <cstddef>
+#include "core/progress.h"
+#include "volume/file_checks.h"
+#include "volume/volume.h"
+
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -11,6 +15,10 @@ namespace slicelens {
 
 struct HeaderScan {
   std::vector<std::filesystem::path> data_files; ///< detached data in reading order; empty when attached
+  Encoding encoding = Encoding::raw;
+  std::uintmax_t offset = 0; ///< of the voxels in the (first) data file
+  std::uintmax_t stored = 0; ///< bytes that they take there
+  bool big_endian = false;
 };
 
 /// Each throws FileError when the header is not one of its format, a needed field is missing or wrong, the
@@ -18,5 +26,10 @@ struct HeaderScan {
 HeaderScan scan_nrrd(const std::filesystem::path& path);
 HeaderScan scan_meta(const std::filesystem::path& path);
 HeaderScan scan_vtk(const std::filesystem::path& path);
+
+/// Fills volume.voxels (sized) from the one file that `scan` names (`path` itself when the data are
+/// attached): raw, zlib or gzip, or text, in full and with checksums verified, which MetaIO and ITK's VTK
+/// reader do not do. Throws FileError when the data are short or damaged.
+void read_voxels(const std::filesystem::path& path, const HeaderScan& scan, Volume& volume);
 
 } // namespace slicelens

@@ -218,7 +218,13 @@ void with_libraries(const fs::path& path, const Progress& progress, const std::f
       text = text.substr(11);
     // "NrrdImageIO(0x55d0c81e3da0): …": the object's address says nothing to a user.
     text = std::regex_replace(text, std::regex("[A-Za-z0-9_]+\\(0x[0-9a-fA-F]+\\): "), "");
-    throw FileError(path.string(), "cannot be read: " + one_line(text));
+    std::string line = one_line(text);
+    // NRRD's errors come as a stack of lines with the cause at its end.
+    text = trimmed(text);
+    const std::size_t last = text.find_last_of('\n');
+    if (!line.empty() && line.back() == ':' && last != std::string::npos)
+      line += " " + one_line(text.substr(last + 1));
+    throw FileError(path.string(), "cannot be read: " + line);
   } catch (const std::bad_alloc&) {
     messages.discard();
     throw LimitError(path.string() + ": reading it needs more memory than there is");

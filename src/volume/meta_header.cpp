@@ -167,6 +167,9 @@ HeaderScan scan_meta(const fs::path& path) {
 
   HeaderScan scan;
   scan.data_files = data_files_of(path, header);
+  scan.offset = scan.data_files.empty() ? header.bytes : 0;
+  scan.big_endian =
+      is_true(field_of(header, "BinaryDataByteOrderMSB")) || is_true(field_of(header, "ElementByteOrderMSB"));
   std::uintmax_t stored = 0;
   for (const fs::path& file : scan.data_files)
     stored += fs::file_size(file);
@@ -181,7 +184,7 @@ HeaderScan scan_meta(const fs::path& path) {
       if (bytes.size() != 1 || bytes[0] < 1 || static_cast<std::uintmax_t>(bytes[0]) > stored)
         throw FileError(path.string(), "'CompressedDataSize = " + one_line(*text) + "' but the data are " +
                                            std::to_string(stored) + " bytes; the file is truncated");
-      stored = static_cast<std::uintmax_t>(bytes[0]);
+      // The size is not used: files exist that give too small a one; the compressed stream knows its end.
     }
   } else if (const auto binary = field_of(header, "BinaryData"); binary && !is_true(binary)) {
     encoding = Encoding::text;
@@ -196,6 +199,11 @@ HeaderScan scan_meta(const fs::path& path) {
     stored -= std::min(stored, skipped);
   }
   check_claim(path, "DimSize", claimed_bytes(path, "DimSize", all_sizes, scalar), stored, encoding, scalar);
+  scan.encoding = encoding;
+  scan.stored = stored;
+  if (encoding != Encoding::raw && scan.data_files.size() > 1)
+    throw FileError(path.string(),
+                    "has several data files that are compressed or text; raw ones are supported");
   return scan;
 }
 

@@ -309,9 +309,23 @@ NrrdHeader parse_nrrd(const fs::path& path) {
     stored = skip > stored / files ? 0 : stored - skip * files;
   }
   check_claim(path, "sizes", claimed, stored, header.encoding, header.scalar_bytes);
+  if (header.encoding == Encoding::deflate && header.line_skip == 0) {
+    // zlib passes what is not gzip through as it is: it would be taken for voxels.
+    const fs::path& file = header.data_files.empty() ? path : header.data_files.front();
+    const std::size_t start = header.data_files.empty() ? header.bytes : 0;
+    const std::string mark =
+        head_of(file, start + 2).substr(std::min<std::size_t>(start, fs::file_size(file)));
+    if (mark != "\x1f\x8b")
+      throw FileError(path.string(),
+                      "'encoding: gzip' but the data are not; the header is wrong or the file damaged");
+  }
   return header;
 }
 
-HeaderScan scan_nrrd(const fs::path& path) { return {parse_nrrd(path).data_files}; }
+HeaderScan scan_nrrd(const fs::path& path) {
+  HeaderScan scan;
+  scan.data_files = parse_nrrd(path).data_files;
+  return scan;
+}
 
 } // namespace slicelens

@@ -1,12 +1,11 @@
 #include "core/errors.h"
 #include "core/text.h"
+#include "volume/dicom_header.h"
 #include "volume/dicom_series.h"
 #include "volume/file_checks.h"
 #include "volume/itk_reading.h"
 #include "volume/readers.h"
 
-#include <gdcmAttribute.h>
-#include <gdcmReader.h>
 #include <itkGDCMImageIO.h>
 
 #include <algorithm>
@@ -20,21 +19,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string text_at(const gdcm::DataSet& data, std::uint16_t group, std::uint16_t element) {
-  const gdcm::Tag tag(group, element);
-  if (!data.FindDataElement(tag))
-    return {};
-  const gdcm::ByteValue* value = data.GetDataElement(tag).GetByteValue();
-  if (value == nullptr)
-    return {};
-  std::string text(value->GetPointer(), value->GetLength());
-  text.erase(std::remove(text.begin(), text.end(), '\0'), text.end());
-  return trimmed(text);
-}
-
 /// Backslash-separated numbers of a text element; empty when one is none.
-std::vector<double> numbers_at(const gdcm::DataSet& data, std::uint16_t group, std::uint16_t element) {
-  std::string text = text_at(data, group, element);
+std::vector<double> numbers_at(const DicomHeader& header, std::uint32_t tag) {
+  std::string text = header.text(tag);
   std::replace(text.begin(), text.end(), '\\', ' ');
   try {
     return numbers_of({}, "number", text);
@@ -43,14 +30,9 @@ std::vector<double> numbers_at(const gdcm::DataSet& data, std::uint16_t group, s
   }
 }
 
-/// An unsigned short in the file's own byte order, which GDCM has turned to the machine's.
-template <std::uint16_t group, std::uint16_t element>
-std::size_t short_at(const gdcm::DataSet& data) {
-  if (!data.FindDataElement(gdcm::Tag(group, element)))
-    return 0;
-  gdcm::Attribute<group, element> attribute;
-  attribute.SetFromDataSet(data);
-  return static_cast<std::size_t>(attribute.GetValue());
+long long whole_at(const DicomHeader& header, std::uint32_t tag, long long other) {
+  const std::vector<double> values = numbers_at(header, tag);
+  return values.empty() || !(std::abs(values[0]) < 1e15) ? other : static_cast<long long>(values[0]);
 }
 
 bool all_finite(const std::vector<double>& values) {
@@ -157,12 +139,46 @@ void place_slice(Volume& volume, std::size_t k, Volume& slice, const fs::path& f
             volume.voxels.begin() + static_cast<std::ptrdiff_t>(k * slice.voxels.size()));
 }
 
+/// GDCM asserts on pixel descriptions that cannot be, so they are refused here.
+void check_pixels(const fs::path& path, const DicomHeader& header, const DicomFile& file) {
+  const std::size_t samples = header.number(0x00280002, 1);
+  const std::size_t bits = header.number(0x00280100, 0);
+  const std::size_t stored = header.number(0x00280101, bits);
+  const std::size_t high = header.number(0x00280102, stored - 1);
+  if (samples < 1 || samples > 4)
+    throw FileError(path.string(),
+                    "'Samples per Pixel' is " + std::to_string(samples) + "; 1 to 4 are supported");
+  if (bits != 1 && bits != 8 && bits != 12 && bits != 16 && bits != 32 && bits != 64)
+    throw FileError(path.string(),
+                    "'Bits Allocated' is " + std::to_string(bits) + "; 8, 16 or 32 are supported");
+  if (stored < 1 || stored > bits || high >= bits || high + 1 < stored)
+    throw FileError(path.string(), "'Bits Stored' is " + std::to_string(stored) + " and 'High Bit' " +
+                                       std::to_string(high) + " in " + std::to_string(bits) +
+                                       " allocated bits");
+  if (header.number(0x00280103, 0) > 1)
+    throw FileError(path.string(), "'Pixel Representation' is neither 0 nor 1");
+  for (const std::uint32_t tag : {0x00281052u, 0x00281053u}) {
+    const std::vector<double> values = numbers_at(header, tag);
+    if (!header.text(tag).empty() && (values.size() != 1 || !std::isfinite(values[0])))
+      throw FileError(path.string(),
+                      "'Rescale' holds '" + one_line(header.text(tag)) + "'; one number is needed");
+  }
+  const std::uintmax_t claimed =
+      claimed_bytes(path, "Rows, Columns, Number of Frames",
+                    {static_cast<long long>(file.rows), static_cast<long long>(file.columns),
+                     static_cast<long long>(file.frames), static_cast<long long>(samples)},
+                    bits) /
+      8;
+  check_claim(path, "Rows, Columns, Number of Frames", claimed, header.pixel_bytes,
+              header.encapsulated ? Encoding::codec : Encoding::raw);
+}
+
 std::vector<DicomFile> scan_all(const std::vector<fs::path>& candidates, const fs::path& named,
                                 const Progress& progress) {
   std::vector<DicomFile> files;
   for (const fs::path& candidate : candidates) {
     try {
-      files.push_back(scan_dicom(candidate, progress));
+      files.push_back(scan_dicom(candidate));
     } catch (const FileError& error) {
       if (candidate == named || candidates.size() == 1)
         throw;
@@ -192,58 +208,37 @@ bool is_dicom(const fs::path& path) {
   return named && head.size() >= 8 && (head[0] == 2 || head[0] == 8) && head[1] == 0 && head[3] == 0;
 }
 
-DicomFile scan_dicom(const fs::path& path, const Progress& progress) {
-  const std::uintmax_t bytes = require_file(path);
+DicomFile scan_dicom(const fs::path& path) {
+  const DicomHeader header = scan_dicom_structure(path);
   DicomFile file;
   file.file = path;
-  with_libraries(path, progress, [&] {
-    gdcm::Reader reader;
-    reader.SetFileName(path.c_str());
-    if (!reader.ReadUpToTag(gdcm::Tag(0x0028, 0x1055)))
-      throw FileError(path.string(), "is no DICOM file that can be read; it is damaged or truncated");
-    const gdcm::DataSet& data = reader.GetFile().GetDataSet();
-    file.series = text_at(data, 0x0020, 0x000e);
-    file.description = one_line(text_at(data, 0x0008, 0x103e));
-    file.instance = text_at(data, 0x0008, 0x0018);
-    file.mosaic = text_at(data, 0x0008, 0x0008).find("MOSAIC") != std::string::npos;
-    file.rows = short_at<0x0028, 0x0010>(data);
-    file.columns = short_at<0x0028, 0x0011>(data);
-    if (file.rows == 0 || file.columns == 0)
-      throw FileError(path.string(), "holds no image (no Rows and Columns); name a DICOM image");
-    const auto whole = [&](std::uint16_t group, std::uint16_t element, long long other) {
-      const std::vector<double> values = numbers_at(data, group, element);
-      return values.empty() || !(std::abs(values[0]) < 1e15) ? other : static_cast<long long>(values[0]);
-    };
-    const long long frames = whole(0x0028, 0x0008, 1);
-    if (frames < 1)
-      throw FileError(path.string(),
-                      "'Number of Frames' is " + std::to_string(frames) + "; at least 1 is needed");
-    file.frames = static_cast<std::size_t>(frames);
-    file.temporal = whole(0x0020, 0x0100, 0);
-    file.acquisition = whole(0x0020, 0x0012, 0);
-    file.number = whole(0x0020, 0x0013, 0);
-    const std::vector<double> position = numbers_at(data, 0x0020, 0x0032);
-    const std::vector<double> axes = numbers_at(data, 0x0020, 0x0037);
-    if (position.size() == 3 && all_finite(position))
-      file.position = glm::dvec3(position[0], position[1], position[2]);
-    if (axes.size() == 6 && all_finite(axes)) {
-      file.axes = glm::dmat2x3(axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]);
-      const glm::dvec3 normal = glm::cross((*file.axes)[0], (*file.axes)[1]);
-      if (glm::length(normal) < 0.5)
-        throw FileError(path.string(), "'Image Orientation (Patient)' holds no two perpendicular directions");
-    }
-    const std::size_t samples = std::max<std::size_t>(1, short_at<0x0028, 0x0002>(data));
-    const std::size_t bits = short_at<0x0028, 0x0100>(data);
-    const gdcm::TransferSyntax& syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
-    const std::uintmax_t claimed =
-        claimed_bytes(path, "Rows, Columns, Number of Frames",
-                      {static_cast<long long>(file.rows), static_cast<long long>(file.columns), frames},
-                      samples * std::max<std::size_t>(1, bits / 8));
-    check_claim(path, "Rows, Columns, Number of Frames", claimed, bytes,
-                syntax.IsEncapsulated() || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian
-                    ? Encoding::codec
-                    : Encoding::raw);
-  });
+  file.series = header.text(0x0020000e);
+  file.description = one_line(header.text(0x0008103e));
+  file.instance = header.text(0x00080018);
+  file.mosaic = header.text(0x00080008).find("MOSAIC") != std::string::npos;
+  file.rows = header.number(0x00280010, 0);
+  file.columns = header.number(0x00280011, 0);
+  if (file.rows == 0 || file.columns == 0 || !header.has_pixels)
+    throw FileError(path.string(), "holds no image (no Rows, Columns or pixel data); name a DICOM image");
+  const long long frames = whole_at(header, 0x00280008, 1);
+  if (frames < 1)
+    throw FileError(path.string(),
+                    "'Number of Frames' is " + std::to_string(frames) + "; at least 1 is needed");
+  file.frames = static_cast<std::size_t>(frames);
+  file.temporal = whole_at(header, 0x00200100, 0);
+  file.acquisition = whole_at(header, 0x00200012, 0);
+  file.number = whole_at(header, 0x00200013, 0);
+  const std::vector<double> position = numbers_at(header, 0x00200032);
+  const std::vector<double> axes = numbers_at(header, 0x00200037);
+  if (position.size() == 3 && all_finite(position))
+    file.position = glm::dvec3(position[0], position[1], position[2]);
+  if (axes.size() == 6 && all_finite(axes)) {
+    file.axes = glm::dmat2x3(axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]);
+    const glm::dvec3 normal = glm::cross((*file.axes)[0], (*file.axes)[1]);
+    if (!(std::abs(glm::length(normal) - 1) < 0.1))
+      throw FileError(path.string(), "'Image Orientation (Patient)' holds no two perpendicular unit vectors");
+  }
+  check_pixels(path, header, file);
   return file;
 }
 

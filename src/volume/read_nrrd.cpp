@@ -58,6 +58,13 @@ public:
     }
   }
 
+  /// Compares the checksum behind the last byte of gzip data.
+  void finish() {
+    std::byte beyond{};
+    if (header_.encoding == Encoding::deflate && ::gzread(file_.get(), &beyond, 1) < 0)
+      throw FileError(path_.string(), "its compressed data are truncated or damaged (checksum)");
+  }
+
 private:
   /// Opens the next data file behind its header and skipped lines and bytes.
   void open_next() {
@@ -211,6 +218,8 @@ Volume read_directly(const fs::path& path, const NrrdHeader& header, std::size_t
   stream.skip(static_cast<std::uintmax_t>(frame) * bytes);
   volume.voxels.resize(bytes);
   stream.read(volume.voxels.data(), bytes);
+  if (frame + 1 == volume.frames)
+    stream.finish();
   const bool big = lower(header.fields.count("endian") > 0 ? header.fields.at("endian") : "") == "big";
   if (header.scalar_bytes > 1 && big != (std::endian::native == std::endian::big))
     swap_bytes(volume.voxels, size_of(volume.type));

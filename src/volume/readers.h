@@ -14,7 +14,7 @@ Volume read_nrrd(const std::filesystem::path& path, std::size_t frame, const Pro
 Volume read_meta(const std::filesystem::path& path, std::size_t frame, const Progress& progress);
 Volume read_vtk(const std::filesystem::path& path, std::size_t frame, const Progress& progress);
 Volume read_nifti(const std::filesystem::path& path, std::size_t frame, const Progress& progress);
-/// NIfTI without ITK, for what ITK refuses: sheared axes (kept as they are in `direction`) and NIfTI-2.
+/// NIfTI without ITK: sheared axes are kept as they are in `direction`.
 Volume read_nifti_directly(const std::filesystem::path& path, std::size_t frame, const Progress& progress);
 Volume read_vti(const std::filesystem::path& path, const Progress& progress);
 Volume read_raw(const VolumeSource& source, const Progress& progress);

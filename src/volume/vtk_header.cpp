@@ -4,6 +4,7 @@
 #include "volume/file_checks.h"
 #include "volume/header_scan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -34,6 +35,12 @@ void check_distances(const fs::path& path, const std::string& field, const std::
   if (!good)
     throw FileError(path.string(), "'" + field + " " + one_line(rest) + "' needs three finite numbers" +
                                        (field == "ORIGIN" ? "" : " above 0"));
+}
+
+/// Where the next line begins; the whole text's length at its end.
+std::uintmax_t offset_after(std::istringstream& in) {
+  const std::streamoff at = in.tellg();
+  return at >= 0 ? static_cast<std::uintmax_t>(at) : in.view().size();
 }
 
 } // namespace
@@ -82,11 +89,16 @@ HeaderScan scan_vtk(const fs::path& path) {
           throw FileError(path.string(), "'SCALARS' has " + words[3] + " components; 1 to 4 are supported");
         all_sizes.push_back(components[0]);
       }
-      const auto at =
-          static_cast<std::uintmax_t>(in.tellg() < 0 ? std::streamoff{0} : std::streamoff(in.tellg()));
-      check_claim(path, "DIMENSIONS", claimed_bytes(path, "DIMENSIONS", all_sizes, scalar), file_bytes - at,
-                  format == "ascii" ? Encoding::text : Encoding::raw, scalar);
-      return {};
+      HeaderScan scan;
+      scan.offset = offset_after(in);
+      if (std::getline(in, line) && lower(line).rfind("lookup_table", 0) == 0)
+        scan.offset = offset_after(in);
+      scan.stored = file_bytes - std::min(file_bytes, scan.offset);
+      scan.encoding = format == "ascii" ? Encoding::text : Encoding::raw;
+      scan.big_endian = true; // always, in this format
+      check_claim(path, "DIMENSIONS", claimed_bytes(path, "DIMENSIONS", all_sizes, scalar), scan.stored,
+                  scan.encoding, scalar);
+      return scan;
     }
   }
   throw FileError(path.string(), "has no 'SCALARS'; a volume needs point data of one scalar kind");

@@ -3,13 +3,19 @@
 
 #include "console.h"
 #include "core/errors.h"
+#include "core/text.h"
 #include "options.h"
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
+#include <iostream>
 #include <new>
 
 namespace slicelens::cli {
@@ -105,6 +111,7 @@ void add_phantom(CLI::App& app, PhantomOptions& options, std::function<void()>& 
       ->type_name("FILE");
   command.add_option("--size", options.size, "voxels: one number for a cube, or three")
       ->expected(1, 3)
+      ->check(CLI::Range(1, 16384))
       ->type_name("N");
   command.callback([&options, &run] { run = [&options] { run_phantom(options); }; });
 }
@@ -141,6 +148,37 @@ int fail(const std::string& message, int status) {
   return status;
 }
 
+/// What was printed must have arrived: a full disk or a closed stdout is a failure.
+int end_output(bool good) {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !good)
+    return fail("stdout: cannot be written", 1);
+  return 0;
+}
+
+/// Where a standard stream is closed its number would go to the next file opened, and a warning would end up
+/// in a picture. Opened for reading, so that writing to a closed stdout still fails.
+void fill_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) == -1 && ::open("/dev/null", O_RDONLY) != stream)
+      std::_Exit(1);
+  }
+}
+
+/// CLI11 would only say that a command is missing.
+void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-')
+    return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  const std::string word = argv[1];
+  if (std::find(names.begin(), names.end(), word) != names.end())
+    return;
+  const auto nearest = nearest_word(word, names);
+  throw UsageError("there is no command '" + word + "'; " +
+                   (nearest ? "did you mean " + *nearest + "?" : "give one of " + join(names)));
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app("Slicelens renders volumes by texture slicing and by ray casting, and measures how far the "
                "two are apart.",
@@ -163,18 +201,19 @@ int run_program(int argc, char** argv) {
   add_list(app, list, run);
   add_gallery(app, gallery, run);
   try {
+    refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& e) {
-    return app.exit(e);
-  } catch (const CLI::CallForVersion& e) {
-    return app.exit(e);
+    run();
+  } catch (const CLI::Success& e) { // --help or --version
+    app.exit(e);
+    std::cout.flush();
+    return end_output(std::cout.good());
   } catch (const CLI::ParseError& e) {
-    return fail(std::string(e.what()) + "; see slicelens --help", 2);
+    const auto commands = app.get_subcommands();
+    const std::string command = commands.empty() ? "slicelens" : "slicelens " + commands.front()->get_name();
+    return fail(std::string(e.what()) + "; see " + command + " --help", 2);
   }
-  run();
-  if (std::fflush(stdout) != 0)
-    return fail("stdout: cannot be written", 1);
-  return 0;
+  return end_output(true);
 }
 
 } // namespace
@@ -183,6 +222,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace slicelens;
+  cli::fill_closed_streams();
   try {
     return cli::run_program(argc, argv);
   } catch (const UsageError& error) {
