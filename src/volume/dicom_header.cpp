@@ -130,8 +130,11 @@ private:
       element.vr = std::string(bytes_.substr(at + 4, 2));
       static const std::vector<std::string> wide = {"OB", "OW", "OF", "OD", "OL", "OV", "SQ",
                                                     "UC", "UR", "UT", "UN", "SV", "UV"};
-      const auto letter = [](char c) { return c >= 'A' && c <= 'Z'; };
-      if (!letter(element.vr[0]) || !letter(element.vr[1]))
+      static const std::vector<std::string> narrow = {"AE", "AS", "AT", "CS", "DA", "DS", "DT",
+                                                      "FL", "FD", "IS", "LO", "LT", "PN", "SH",
+                                                      "SL", "SS", "ST", "TM", "UI", "UL", "US"};
+      if (std::find(wide.begin(), wide.end(), element.vr) == wide.end() &&
+          std::find(narrow.begin(), narrow.end(), element.vr) == narrow.end())
         damaged("element " + tag_text(element.tag) + " has no value representation; the file is damaged");
       if (std::find(wide.begin(), wide.end(), element.vr) == wide.end()) {
         element.length = u16(at + 6, encoded.big);
