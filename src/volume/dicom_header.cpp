@@ -60,6 +60,22 @@ struct Element {
   std::uint32_t length = 0;
 };
 
+/// The value representation (PS3.6) of the elements that GDCM's image reader takes, whose other types it
+/// asserts against.
+const char* vr_of(std::uint32_t tag) {
+  static const std::map<std::uint32_t, const char*> known = {
+      {0x00020002, "UI"}, {0x00020003, "UI"}, {0x00020010, "UI"}, {0x00080008, "CS"}, {0x00080016, "UI"},
+      {0x00080018, "UI"}, {0x00080060, "CS"}, {0x00180050, "DS"}, {0x00180088, "DS"}, {0x00181164, "DS"},
+      {0x00182010, "DS"}, {0x0020000d, "UI"}, {0x0020000e, "UI"}, {0x00200032, "DS"}, {0x00200037, "DS"},
+      {0x00280002, "US"}, {0x00280004, "CS"}, {0x00280006, "US"}, {0x00280008, "IS"}, {0x00280009, "AT"},
+      {0x00280010, "US"}, {0x00280011, "US"}, {0x00280030, "DS"}, {0x00280034, "IS"}, {0x00280100, "US"},
+      {0x00280101, "US"}, {0x00280102, "US"}, {0x00280103, "US"}, {0x00281050, "DS"}, {0x00281051, "DS"},
+      {0x00281052, "DS"}, {0x00281053, "DS"}, {0x00281054, "LO"}, {0x00282110, "CS"}, {0x3002000e, "DS"},
+      {0x3004000c, "DS"}, {0x00540081, "US"}, {0x30020011, "DS"}, {0x00280014, "US"}, {0x00280005, "US"}};
+  const auto found = known.find(tag);
+  return found == known.end() ? nullptr : found->second;
+}
+
 std::string tag_text(std::uint32_t tag) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "(%04x,%04x)", tag >> 16, tag & 0xffff);
@@ -156,6 +172,13 @@ private:
   std::size_t contents(const Element& element, std::size_t at, std::size_t end, Encoded encoded, int depth) {
     if (element.tag >> 16 == 0xfffe)
       damaged("has an item " + tag_text(element.tag) + " outside a sequence; the file is damaged");
+    const char* const vr = vr_of(element.tag);
+    if (vr != nullptr && ((!element.vr.empty() && element.vr != vr) ||
+                          (std::string(vr) == "US" && element.length != 2 && element.length != 0)))
+      damaged("element " + tag_text(element.tag) + " is of type '" + element.vr + "' with " +
+              std::to_string(element.length) + " bytes where '" + vr + "' belongs; the file is damaged");
+    if (element.tag == pixel_data && !element.vr.empty() && element.vr != "OB" && element.vr != "OW")
+      damaged("its pixel data are of type '" + element.vr + "'; OB or OW belongs there");
     if (element.tag == pixel_data && depth == 0) {
       header_.has_pixels = true;
       if (element.length == undefined)
