@@ -227,9 +227,26 @@ private:
       if (item.tag != item_tag || item.length == undefined)
         damaged("its compressed pixel data are damaged");
       header_.pixel_bytes += item.length;
+      check_jpeg2000(at, item.length);
       at += item.length;
     }
     damaged("ends before its compressed pixel data do; the file is truncated");
+  }
+
+  /// GDCM decodes a JPEG 2000 picture into a buffer of Rows and Columns whatever the picture's own size is
+  /// (SIZ marker: ISO/IEC 15444-1 A.5.1), so the two must agree.
+  void check_jpeg2000(std::size_t at, std::size_t length) const {
+    if (length < 42 || u32(at, true) != 0xff4fff51)
+      return;
+    const std::size_t columns = header_.number(0x00280011, 0);
+    const std::size_t rows = header_.number(0x00280010, 0);
+    const std::size_t samples = header_.number(0x00280002, 1);
+    bool agrees = u32(at + 8, true) == columns && u32(at + 12, true) == rows && u32(at + 16, true) == 0 &&
+                  u32(at + 20, true) == 0 && u16(at + 40, true) == samples && length >= 42 + 3 * samples;
+    for (std::size_t sample = 0; agrees && sample < samples; ++sample)
+      agrees = bytes_[at + 43 + 3 * sample] == 1 && bytes_[at + 44 + 3 * sample] == 1; // no subsampling
+    if (!agrees)
+      damaged("a JPEG 2000 picture in it is not of Rows x Columns x Samples; the file is damaged");
   }
 
   const fs::path& path_;
