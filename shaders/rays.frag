@@ -8,6 +8,7 @@
 #include "gpu/classify.glsl"
 #include "lib/gradient.glsl"
 #include "lib/shade.glsl"
+#include "gpu/warp.glsl"
 #include "gpu/light.glsl"
 
 uniform RayFrame frame;
@@ -16,6 +17,8 @@ uniform float distance_ratio;    // Δ/Δ₀, or 1 without correction
 uniform float early_termination;
 uniform vec3 to_eye_axis;
 uniform mat3 world_from_direction;  // texture-space vectors to world space
+uniform vec3 object_low;           // bounds of the displayed volume, texture coordinates
+uniform vec3 object_high;
 uniform int clip_count;
 uniform vec4 clip_planes[MAX_CLIP_PLANES];
 
@@ -23,7 +26,13 @@ in vec2 place;
 out vec4 result;
 
 vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
-  float value = displayed_value(p);
+#ifdef LENS_COUNT
+  vec3 t = texture_from_object(p);
+  if (!in_volume(t) || !in_data_planes(t)) return gathered;
+#else
+  vec3 t = p;
+#endif
+  float value = displayed_value(t);
 #if defined(MODE_MIP)
   return vec4(max(gathered.x, value), 0.0, 0.0, 1.0);
 #else
@@ -32,7 +41,7 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
   return gathered + vec4(sample_color.a * distance_ratio);
 #else
 #ifdef SHADING_DIFFUSE
-  sample_color.rgb = shade(sample_color.rgb, p, to_eye);
+  sample_color.rgb = shade(sample_color.rgb, t, p, to_eye);
 #endif
 #ifdef CORRECT_CONSTANT
   sample_color.a = corrected_opacity(sample_color.a, distance_ratio);
@@ -50,7 +59,7 @@ void main() {
   PixelRay ray = ray_from_pixel(frame, false, place.x, place.y);
   vec3 to_eye = to_eye_axis;
 #endif
-  vec2 interval = hit_box(ray);
+  vec2 interval = hit_box(ray, object_low, object_high);
   for (int i = 0; i < clip_count; ++i) interval = clip_interval(interval, ray, clip_planes[i]);
 #if defined(MODE_MIP)
   vec4 gathered = vec4(-3.0e38, 0.0, 0.0, 0.0);

@@ -2,7 +2,8 @@
 // opacity, for summing.
 //
 // CORRECT_CONSTANT corrects the opacity for one distance ratio; CORRECT_FRAGMENT for the distance along this
-// fragment's own ray (Brunet §3.1).
+// fragment's own ray (Brunet §3.1). WARP_TESSELLATED divides the homogeneous coordinate that the mesh carries;
+// WARP_FRAGMENT evaluates the lens here.
 
 #include "lib/opacity.glsl"
 #include "lib/composite.glsl"
@@ -10,6 +11,7 @@
 #include "gpu/classify.glsl"
 #include "lib/gradient.glsl"
 #include "lib/shade.glsl"
+#include "gpu/warp.glsl"
 #include "gpu/light.glsl"
 
 uniform float distance_ratio;     // Δ/Δ₀ on the view axis
@@ -19,7 +21,10 @@ uniform vec3 to_eye_axis;         // world: against the viewing direction
 uniform vec3 eye;                 // world, perspective
 uniform mat4 world_from_texture;
 
-in vec3 texture_coordinate;
+in vec3 object_coordinate;
+#ifdef WARP_TESSELLATED
+in vec4 homogeneous_coordinate;
+#endif
 out vec4 result;
 
 #if defined(CORRECT_FRAGMENT)
@@ -40,6 +45,14 @@ vec3 direction_to_eye(vec3 p) {
 }
 
 void main() {
+#if defined(WARP_TESSELLATED)
+  vec3 texture_coordinate = homogeneous_coordinate.xyz / homogeneous_coordinate.w;
+#elif defined(WARP_FRAGMENT)
+  vec3 texture_coordinate = texture_from_object(object_coordinate);
+  if (!in_volume(texture_coordinate) || !in_data_planes(texture_coordinate)) discard;
+#else
+  vec3 texture_coordinate = object_coordinate;
+#endif
   float value = displayed_value(texture_coordinate);
 #if defined(MODE_MIP)
   result = vec4(unit_from_value.x * value + unit_from_value.y, 0.0, 0.0, 1.0);
@@ -53,7 +66,7 @@ void main() {
 #endif
 #else
 #ifdef SHADING_DIFFUSE
-  sample_color.rgb = shade(sample_color.rgb, texture_coordinate, direction_to_eye(texture_coordinate));
+  sample_color.rgb = shade(sample_color.rgb, texture_coordinate, object_coordinate, direction_to_eye(object_coordinate));
 #endif
 #if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)
   sample_color.a = corrected_opacity(sample_color.a, sample_ratio());

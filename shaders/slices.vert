@@ -1,10 +1,18 @@
-// A corner of a slice polygon: its texture coordinate, and where it lies in the picture.
+// A corner of a slice polygon: where it is shown, and with WARP_TESSELLATED the homogeneous texture coordinate that it
+// looks at (LaMar 2001 §3).
 
 uniform mat4 clip_from_texture;
 in vec3 corner;
-out vec3 texture_coordinate;
+out vec3 object_coordinate;
+#ifdef WARP_TESSELLATED
+in vec4 look;
+out vec4 homogeneous_coordinate;
+#endif
 
 void main() {
-  texture_coordinate = corner;
+  object_coordinate = corner;
+#ifdef WARP_TESSELLATED
+  homogeneous_coordinate = look;
+#endif
   gl_Position = clip_from_texture * vec4(corner, 1.0);
 }

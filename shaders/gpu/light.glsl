@@ -8,12 +8,17 @@ uniform float ambient;
 uniform float diffuse;
 uniform bool two_sided;
 
-vec3 shade(vec3 color, vec3 p, vec3 to_eye) {
+// `t`: where the data is looked at; `p`: where it is shown.
+vec3 shade(vec3 color, vec3 t, vec3 p, vec3 to_eye) {
 #ifdef GRADIENT_FORWARD
-  vec3 gradient = world_from_gradient * forward_gradient(p, voxel);
+  vec3 gradient = forward_gradient(t, voxel);
 #else
-  vec3 gradient = world_from_gradient * central_gradient(p, voxel);
+  vec3 gradient = central_gradient(t, voxel);
 #endif
+#ifdef LENS_COUNT
+  gradient = displayed_gradient(gradient, p);
+#endif
+  gradient = world_from_gradient * gradient;
 #ifdef LIGHT_AT_EYE
   vec3 light = to_eye;
 #else

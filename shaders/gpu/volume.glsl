@@ -29,5 +29,5 @@ float sample_volume(vec3 t) {
   return value_from_texel.x * texel + value_from_texel.y;
 }
 
-// What is shown at a point of the displayed volume. Without a warp the two are the same; a warp's inverse map goes here.
-float displayed_value(vec3 p) { return sample_volume(p); }
+// For lib/gradient.glsl: gradients are taken in the data and carried through a lens by its Jacobian (gpu/warp.glsl).
+float displayed_value(vec3 t) { return sample_volume(t); }

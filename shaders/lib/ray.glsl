@@ -38,14 +38,14 @@ PixelRay ray_from_pixel(RayFrame frame, bool perspective, real x, real y) {
   return ray;
 }
 
-// Distances (near, far) from the origin between which the ray is in [0,1]³; near > far when it misses.
-vec2 hit_box(PixelRay ray) {
+// Distances (near, far) from the origin between which the ray is in the box [low, high]; near > far when it misses.
+vec2 hit_box(PixelRay ray, vec3 box_low, vec3 box_high) {
   // A component of exactly 0 would divide by zero; 1e-20 puts the hits of that axis out of everybody's way.
   vec3 d = vec3(abs(ray.direction.x) < real(1e-20) ? real(1e-20) : ray.direction.x,
                 abs(ray.direction.y) < real(1e-20) ? real(1e-20) : ray.direction.y,
                 abs(ray.direction.z) < real(1e-20) ? real(1e-20) : ray.direction.z);
-  vec3 a = (vec3(real(0)) - ray.origin) / d;
-  vec3 b = (vec3(real(1)) - ray.origin) / d;
+  vec3 a = (box_low - ray.origin) / d;
+  vec3 b = (box_high - ray.origin) / d;
   vec3 low = min(a, b);
   vec3 high = max(a, b);
   return vec2(max(max(max(low.x, low.y), low.z), ray.start), min(min(high.x, high.y), high.z));

@@ -16,6 +16,53 @@ PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer) {
   return prepared;
 }
 
+namespace {
+
+/// Pixels in one unit of box space at a lens centre.
+double pixels_per_unit(const PreparedScene& prepared, const LamarLens& lens) {
+  const View& view = prepared.view;
+  const double pixels_per_world = 0.5 * view.height / view.half_height;
+  if (view.projection == Projection::orthographic)
+    return pixels_per_world * prepared.space.longest;
+  const double distance = depth(view, world_from_texture(prepared.box, lens.center));
+  return pixels_per_world * prepared.space.longest / std::max(distance, 1e-9 * prepared.space.longest);
+}
+
+/// Bounds of a lens' footprint over its whole depth, in box space: outer radius (a square's corners reach √2
+/// farther) at the deeper end, where perspective makes it largest.
+void include_footprint(const LamarMap& map, glm::dvec3& low, glm::dvec3& high) {
+  for (const double z : {-map.depth_outer, map.depth_outer}) {
+    const LensPlane plane = lens_plane(map, z);
+    for (const double x : {-1.0, 1.0}) {
+      for (const double y : {-1.0, 1.0}) {
+        const glm::dvec3 corner =
+            plane.axis_point + (map.outer * std::max(plane.scale, 0.0)) * (x * map.right + y * map.up);
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+      }
+    }
+  }
+}
+
+void prepare_warps(PreparedScene& prepared) {
+  prepared.space = box_space(prepared.box);
+  prepared.warp_view = warp_view(prepared.view, prepared.box);
+  prepared.lenses.clear();
+  glm::dvec3 low(0);
+  glm::dvec3 high = prepared.space.size;
+  for (const Warp& warp : prepared.scene.warp) {
+    const auto& lens = std::get<LamarLens>(warp);
+    prepared.lenses.push_back(
+        prepare_lens(lens, prepared.space, prepared.warp_view, pixels_per_unit(prepared, lens)));
+    include_footprint(prepared.lenses.back().map, low, high);
+  }
+  refuse_overlap(prepared.lenses);
+  prepared.object_low = texture_from_box(prepared.space, low);
+  prepared.object_high = texture_from_box(prepared.space, high);
+}
+
+} // namespace
+
 void prepare_again(PreparedScene& prepared) {
   const Scene& scene = prepared.scene;
   const double h = smallest_spacing(prepared.volume);
@@ -26,11 +73,14 @@ void prepare_again(PreparedScene& prepared) {
   prepared.unit_distance = prepared.transfer.unit_distance.value_or(h);
   prepared.xray_scale =
       scene.render.xray_scale.value_or(prepared.unit_distance / (2 * bounding_radius(prepared.box)));
-  prepared.clip.clear();
+  prepared.data_clip.clear();
+  prepared.object_clip.clear();
   for (const ClipSettings& plane : scene.clip) {
     const Plane world{plane.normal, glm::dot(plane.normal, world_from_texture(prepared.box, plane.point))};
-    prepared.clip.push_back(pull_back(world, prepared.box.world_from_texture));
+    auto& planes = plane.space == ClipSpace::texture ? prepared.data_clip : prepared.object_clip;
+    planes.push_back(pull_back(world, prepared.box.world_from_texture));
   }
+  prepare_warps(prepared);
 }
 
 double axis_distance_ratio(const PreparedScene& prepared) {
@@ -41,7 +91,7 @@ Correction correction_of(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
   if (render.opacity_correction == OpacityCorrection::none)
     return Correction::none;
-  if (render.opacity_correction == OpacityCorrection::fragment && render.pipeline == Pipeline::slices &&
+  if (render.opacity_correction == OpacityCorrection::fragment && draws_slices(render.pipeline) &&
       prepared.view.projection == Projection::perspective) {
     return Correction::per_fragment;
   }

@@ -4,6 +4,7 @@
 #include "core/view.h"
 #include "scene/scene.h"
 #include "slicing/polygon.h"
+#include "tess/lens_mesh.h"
 #include "volume/transfer.h"
 #include "volume/volume.h"
 
@@ -18,10 +19,17 @@ struct PreparedScene {
   TransferFunction transfer;
   Box box;
   View view;
-  double spacing = 1;       ///< Δ, slice or step distance
-  double unit_distance = 1; ///< Δ₀, the length that the transfer function's opacities are for
-  double xray_scale = 1;    ///< grey of a line integral of one
-  std::vector<Plane> clip;  ///< half-spaces kept, in texture space
+  double spacing = 1;             ///< Δ, slice or step distance
+  double unit_distance = 1;       ///< Δ₀, the length that the transfer function's opacities are for
+  double xray_scale = 1;          ///< grey of a line integral of one
+  std::vector<Plane> data_clip;   ///< half-spaces of the data that are kept, in texture space
+  std::vector<Plane> object_clip; ///< half-spaces of the displayed volume, in its texture coordinates
+  BoxSpace space;
+  WarpView warp_view;
+  std::vector<LensTessellation> lenses; ///< the scene's warps for this view
+  glm::dvec3 object_low{
+      0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
+  glm::dvec3 object_high{1};
 };
 
 /// Works out the rest. Throws UsageError where scene and data do not fit.

@@ -24,8 +24,9 @@ RayFrameValues ray_frame(const PreparedScene& prepared) {
 }
 
 void check_sample_count(const PreparedScene& prepared) {
-  const double radius = bounding_radius(prepared.box);
-  plane_range({-radius, radius}, prepared.spacing);
+  // Rays are at most as long as the displayed volume's diagonal.
+  const glm::dvec3 size = (prepared.object_high - prepared.object_low) * extent(prepared.box);
+  plane_range({0, glm::length(size)}, prepared.spacing);
 }
 
 } // namespace slicelens

@@ -25,9 +25,15 @@ void set_ray_uniforms(const gl::Functions& gl, const gl::Program& program, const
   set_uniform(gl, program, "delta", static_cast<float>(prepared.spacing));
   set_uniform(gl, program, "early_termination", static_cast<float>(prepared.scene.render.early_termination));
   set_uniform(gl, program, "world_from_direction", glm::mat3(prepared.box.world_from_texture));
-  std::vector<glm::vec4> planes;
-  for (const Plane& plane : prepared.clip)
-    planes.emplace_back(plane.normal, -plane.offset);
+  set_uniform(gl, program, "object_low", glm::vec3(prepared.object_low));
+  set_uniform(gl, program, "object_high", glm::vec3(prepared.object_high));
+  // Under a warp a straight ray leaves and enters the data's half-spaces more than once: gpu/warp.glsl tests
+  // each sample.
+  std::vector<glm::vec4> planes = plane_vectors(prepared.object_clip);
+  if (prepared.lenses.empty()) {
+    for (const glm::vec4& plane : plane_vectors(prepared.data_clip))
+      planes.push_back(plane);
+  }
   set_uniform(gl, program, "clip_count", static_cast<int>(planes.size()));
   if (!planes.empty())
     set_uniform(gl, program, "clip_planes", std::span<const glm::vec4>(planes));
@@ -38,7 +44,6 @@ void set_ray_uniforms(const gl::Functions& gl, const gl::Program& program, const
 RayRenderer::RayRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
   check_sample_count(prepared);
   std::vector<std::string> macros = common_macros(prepared);
-  macros.push_back("MAX_CLIP_PLANES " + std::to_string(std::max<std::size_t>(1, prepared.clip.size())));
   if (prepared.scene.render.early_termination < 1)
     macros.emplace_back("EARLY_TERMINATION");
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});

@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>
@@ -78,16 +79,51 @@ struct Tracer : SharedFunctions {
 
 #include "lib/gradient.glsl"
 
-  vec3 shaded(vec3 color, vec3 p, vec3 to_eye) {
-    const vec3 by_texture = prepared.scene.render.gradient == Gradient::forward ? forward_gradient(p, voxel)
-                                                                                : central_gradient(p, voxel);
+  vec3 shaded(vec3 color, vec3 t, vec3 p, vec3 to_eye) {
+    const vec3 by_texture = prepared.scene.render.gradient == Gradient::forward ? forward_gradient(t, voxel)
+                                                                                : central_gradient(t, voxel);
     const LightSettings& light = prepared.scene.light;
-    return color * this->diffuse_factor(world_from_gradient * by_texture, light_direction(prepared, to_eye),
-                                        light.ambient, light.diffuse, light.two_sided);
+    return color * this->diffuse_factor(world_from_gradient * displayed_gradient(by_texture, p),
+                                        light_direction(prepared, to_eye), light.ambient, light.diffuse,
+                                        light.two_sided);
+  }
+
+  /// u = u_1 ∘ … ∘ u_n (METHODS §0).
+  vec3 data_point(vec3 p) const {
+    if (prepared.lenses.empty())
+      return p;
+    vec3 b = box_from_texture(prepared.space, p);
+    for (auto lens = prepared.lenses.rbegin(); lens != prepared.lenses.rend(); ++lens)
+      b = texture_from_object(lens->map, b);
+    return texture_from_box(prepared.space, b);
+  }
+
+  /// Jᵀ∇v, by texture coordinates.
+  vec3 displayed_gradient(vec3 gradient, vec3 p) const {
+    if (prepared.lenses.empty())
+      return gradient;
+    vec3 b = box_from_texture(prepared.space, p);
+    dmat3 total(1);
+    for (auto lens = prepared.lenses.rbegin(); lens != prepared.lenses.rend(); ++lens) {
+      total = jacobian(lens->map, b) * total;
+      b = texture_from_object(lens->map, b);
+    }
+    return ((gradient / prepared.space.size) * total) * prepared.space.size;
+  }
+
+  /// Inside the volume and the planes that clip the data.
+  bool shows_data(vec3 t) const {
+    if (any(lessThan(t, vec3(0))) || any(greaterThan(t, vec3(1))))
+      return false;
+    return std::all_of(prepared.data_clip.begin(), prepared.data_clip.end(),
+                       [&](const Plane& plane) { return signed_value(plane, t) >= 0; });
   }
 
   vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
-    const real value = displayed_value(p);
+    const vec3 t = data_point(p);
+    if (!prepared.lenses.empty() && !shows_data(t))
+      return gathered;
+    const real value = displayed_value(t);
     const Mode mode = prepared.scene.render.mode;
     if (mode == Mode::mip)
       return vec4(max(gathered.x, value), 0, 0, 1);
@@ -96,16 +132,20 @@ struct Tracer : SharedFunctions {
       return gathered + vec4(color.w * ratio);
     vec3 rgb(color);
     if (prepared.scene.render.shading == Shading::diffuse && color.w > 0)
-      rgb = shaded(rgb, p, to_eye);
+      rgb = shaded(rgb, t, p, to_eye);
     const real alpha = correction == Correction::none ? color.w : this->corrected_opacity(color.w, ratio);
     return this->under(gathered, this->associated(rgb, alpha));
   }
 
   vec4 trace(const SharedFunctions::RayFrame& frame, bool perspective, real x, real y) {
     const SharedFunctions::PixelRay ray = this->ray_from_pixel(frame, perspective, x, y);
-    vec2 interval = this->hit_box(ray);
-    for (const Plane& plane : prepared.clip)
+    vec2 interval = this->hit_box(ray, prepared.object_low, prepared.object_high);
+    const auto cut = [&](const Plane& plane) {
       interval = this->clip_interval(interval, ray, vec4(plane.normal, -plane.offset));
+    };
+    std::for_each(prepared.object_clip.begin(), prepared.object_clip.end(), cut);
+    if (prepared.lenses.empty())
+      std::for_each(prepared.data_clip.begin(), prepared.data_clip.end(), cut);
     const bool mip = prepared.scene.render.mode == Mode::mip;
     vec4 gathered = mip ? vec4(-std::numeric_limits<real>::infinity(), 0, 0, 0) : vec4(0);
     if (interval.x > interval.y)

@@ -29,8 +29,9 @@ private:
 };
 
 std::string limits_text(const gl::Limits& limits) {
-  return "2D " + std::to_string(limits.texture_size) + ", 3D " + std::to_string(limits.texture_size_3d) + ", texture units " +
-         std::to_string(limits.texture_units) + ", timer bits " + std::to_string(limits.timer_query_bits);
+  return "2D " + std::to_string(limits.texture_size) + ", 3D " + std::to_string(limits.texture_size_3d) +
+         ", texture units " + std::to_string(limits.texture_units) + ", timer bits " +
+         std::to_string(limits.timer_query_bits);
 }
 
 GLenum format_of(Target target) {
@@ -67,13 +68,14 @@ void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Pr
       gl::make_target(gl, prepared.view.width, prepared.view.height, format_of(settings.target));
   gl::finish(gl);
   result.times.upload = watch.lap();
-  if (settings.pipeline == Pipeline::slices) {
+  if (draws_slices(settings.pipeline)) {
     SliceRenderer renderer(gl, prepared);
     result.times.compile = watch.lap();
     renderer.slice(prepared);
     result.times.slice = watch.lap();
     result.times.gpu_draw = timed_draw(gl, [&] { renderer.draw(prepared, scene, target, progress); });
     result.slices = renderer.slice_count();
+    result.triangles = renderer.triangle_count();
   } else {
     RayRenderer renderer(gl, prepared);
     result.times.compile = watch.lap();

@@ -26,11 +26,12 @@ struct RenderResult {
   RenderTimes times;
   std::string renderer; ///< GL_RENDERER, or "CPU, double precision" for the reference
   std::string version;  ///< GL_VERSION, empty for the reference
-  std::string limits;             ///< what the driver allows, one line; empty for the reference
+  std::string limits;   ///< what the driver allows, one line; empty for the reference
   std::string context;  ///< kind of context
   std::string texture;  ///< what holds the volume: "r16", empty for the reference
   std::size_t texture_bytes = 0;
-  std::size_t slices = 0; ///< drawn, 0 for rays and reference
+  std::size_t slices = 0;    ///< drawn, 0 for rays and reference
+  std::size_t triangles = 0; ///< of all slices
 };
 
 /// The context that a scene asks for. Throws GraphicsError.

@@ -4,10 +4,11 @@
 #include "gl/state.h"
 #include "gl/timer.h"
 #include "render/shaders.h"
+#include "render/stack_geometry.h"
 #include "render/uniforms.h"
 
 #include <algorithm>
-#include <limits>
+#include <cstddef>
 
 namespace slicelens {
 
@@ -48,7 +49,8 @@ void set_blending(const gl::Functions& gl, const RenderSettings& render) {
 } // namespace
 
 SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
-  std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "slices.vert", {});
+  std::vector<gl::ShaderSource> stages =
+      shader_stage(GL_VERTEX_SHADER, "slices.vert", common_macros(prepared));
   const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "slices.frag", common_macros(prepared));
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   program_ = gl::make_program(gl, stages);
@@ -63,32 +65,23 @@ SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepa
 }
 
 void SliceRenderer::slice(const PreparedScene& prepared) {
-  SliceRequest request;
-  request.box = prepared.box;
-  request.view = prepared.view;
-  request.spacing = prepared.spacing;
-  request.order = prepared.scene.render.order == Order::front_to_back ? SliceOrder::front_to_back
-                                                                      : SliceOrder::back_to_front;
-  request.clip = prepared.clip;
-  stack_ = make_slice_stack(request);
-
-  std::vector<glm::vec3> corners(stack_.corners.begin(), stack_.corners.end());
-  std::vector<std::uint32_t> indices;
-  index_ends_.clear();
-  for (const Slice& slice : stack_.slices) {
-    for (std::uint32_t i = 2; i < slice.count; ++i) {
-      indices.insert(indices.end(), {slice.first, slice.first + i - 1, slice.first + i});
-    }
-    index_ends_.push_back(indices.size());
-  }
+  const StackGeometry geometry = make_stack_geometry(prepared);
+  index_ends_ = geometry.index_ends;
 
   const gl::StateGuard guard(*gl_);
   gl_->BindVertexArray(vertex_array_.name());
-  corners_ = gl::make_buffer(*gl_, GL_ARRAY_BUFFER, std::as_bytes(std::span(corners)));
-  const auto location = static_cast<GLuint>(gl_->GetAttribLocation(program_.name(), "corner"));
-  gl_->EnableVertexAttribArray(location);
-  gl_->VertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-  indices_ = gl::make_buffer(*gl_, GL_ELEMENT_ARRAY_BUFFER, std::as_bytes(std::span(indices)));
+  corners_ = gl::make_buffer(*gl_, GL_ARRAY_BUFFER, std::as_bytes(std::span(geometry.vertices)));
+  const auto attribute = [&](const char* name, GLint size, std::size_t offset) {
+    const GLint location = gl_->GetAttribLocation(program_.name(), name);
+    if (location < 0)
+      return; // not every program reads all of a corner
+    gl_->EnableVertexAttribArray(static_cast<GLuint>(location));
+    gl_->VertexAttribPointer(static_cast<GLuint>(location), size, GL_FLOAT, GL_FALSE, sizeof(StackVertex),
+                             reinterpret_cast<const void*>(offset));
+  };
+  attribute("corner", 3, offsetof(StackVertex, position));
+  attribute("look", 4, offsetof(StackVertex, texture));
+  indices_ = gl::make_buffer(*gl_, GL_ELEMENT_ARRAY_BUFFER, std::as_bytes(std::span(geometry.indices)));
 }
 
 void SliceRenderer::draw_stack(const Progress& progress) {

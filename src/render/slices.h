@@ -1,5 +1,6 @@
-// Pipeline `slices`: a stack of view-aligned polygons, textured, classified and blended (METHODS §0; LaMar
-// §3, Brunet §3).
+// Pipelines `slices`, `tessellated` and `fragment`: a stack of view-aligned polygons, textured, classified
+// and blended (METHODS §0; LaMar §3, Brunet §3). They differ in where a lens is evaluated: nowhere, at the
+// corners, at each fragment.
 #pragma once
 
 #include "gl/target.h"
@@ -24,7 +25,8 @@ public:
   void draw(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target,
             const Progress& progress);
 
-  std::size_t slice_count() const { return stack_.slices.size(); }
+  std::size_t slice_count() const { return index_ends_.size(); }
+  std::size_t triangle_count() const { return index_ends_.empty() ? 0 : index_ends_.back() / 3; }
 
 private:
   void draw_stack(const Progress& progress);
@@ -38,7 +40,6 @@ private:
   gl::VertexArray no_vertices_;
   gl::Buffer corners_;
   gl::Buffer indices_;
-  SliceStack stack_;
   std::vector<std::size_t> index_ends_; ///< of each slice in the index buffer
 };
 

@@ -26,6 +26,15 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
   }
   if (prepared.view.projection == Projection::perspective)
     macros.emplace_back("PERSPECTIVE");
+  if (!prepared.lenses.empty()) {
+    macros.push_back("LENS_COUNT " + std::to_string(prepared.lenses.size()));
+    if (render.pipeline == Pipeline::tessellated)
+      macros.emplace_back("WARP_TESSELLATED");
+    if (render.pipeline == Pipeline::fragment)
+      macros.emplace_back("WARP_FRAGMENT");
+  }
+  macros.push_back("MAX_CLIP_PLANES " +
+                   std::to_string(1 + prepared.data_clip.size() + prepared.object_clip.size()));
   switch (correction_of(prepared)) {
   case Correction::none:
     break;
@@ -39,8 +48,48 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
   return macros;
 }
 
+std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes) {
+  std::vector<glm::vec4> vectors;
+  for (const Plane& plane : planes)
+    vectors.emplace_back(plane.normal, -plane.offset);
+  return vectors;
+}
+
+void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared) {
+  set_uniform(gl, program, "box_size", glm::vec3(prepared.space.size));
+  for (std::size_t i = 0; i < prepared.lenses.size(); ++i) {
+    const LamarMap& map = prepared.lenses[i].map;
+    const std::string lens = "lenses[" + std::to_string(i) + "].";
+    const auto set_vector = [&](const char* name, const glm::dvec3& v) {
+      set_uniform(gl, program, (lens + name).c_str(), glm::vec3(v));
+    };
+    const auto set_number = [&](const char* name, double v) {
+      set_uniform(gl, program, (lens + name).c_str(), static_cast<float>(v));
+    };
+    set_vector("center", map.center);
+    set_vector("axis", map.axis);
+    set_vector("forward", map.forward);
+    set_vector("right", map.right);
+    set_vector("up", map.up);
+    set_number("center_depth", map.center_depth);
+    set_uniform(gl, program, (lens + "square").c_str(), map.square ? 1 : 0);
+    set_uniform(gl, program, (lens + "border").c_str(), map.border);
+    set_number("minification", map.minification);
+    set_number("inner", map.inner);
+    set_number("outer", map.outer);
+    set_number("depth_inner", map.depth_inner);
+    set_number("depth_outer", map.depth_outer);
+  }
+  const std::vector<glm::vec4> planes = plane_vectors(prepared.data_clip);
+  set_uniform(gl, program, "data_plane_count", static_cast<int>(planes.size()));
+  if (!planes.empty())
+    set_uniform(gl, program, "data_planes", std::span<const glm::vec4>(planes));
+}
+
 void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
                          const GpuScene& scene) {
+  if (!prepared.lenses.empty())
+    set_warp_uniforms(gl, program, prepared);
   const Volume& volume = prepared.volume;
   const LightSettings& light = prepared.scene.light;
   gl.ActiveTexture(GL_TEXTURE0);

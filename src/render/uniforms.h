@@ -12,6 +12,12 @@ namespace slicelens {
 /// Macros for sampling, mode and shading, as shaders/ names them.
 std::vector<std::string> common_macros(const PreparedScene& prepared);
 
+/// Sets what shaders/gpu/warp.glsl declares. The program must be in use.
+void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared);
+
+/// Planes as GLSL takes them: (normal, −offset).
+std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes);
+
 /// Binds both textures (units 0 and 1) and sets what shaders/gpu/*.glsl declares. The program must be in use.
 void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
                          const GpuScene& scene);

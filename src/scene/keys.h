@@ -55,7 +55,8 @@ void camera_keys(Visitor& visit, Settings& s) {
 template <class Visitor, class Settings>
 void render_keys(Visitor& visit, Settings& s) {
   visit.key("pipeline", s.pipeline,
-            "where the volume is sampled: slices, rays (GPU) or reference (CPU, double precision)");
+            "where the map is evaluated: slices (no warp), tessellated (per vertex), fragment, rays (GPU), "
+            "or reference (CPU, double)");
   visit.key("mode", s.mode,
             "dvr (emission and absorption), mip (maximum) or xray (line integral of the opacity)");
   visit.key("xray_scale", s.xray_scale,
@@ -96,6 +97,34 @@ void clip_keys(Visitor& visit, Settings& s) {
 }
 
 template <class Visitor, class Settings>
+void lamar_keys(Visitor& visit, Settings& s) {
+  visit.key("shape", s.shape, "circle or square");
+  visit.key("border", s.border, "simple, linear or cubic");
+  visit.key("zoom", s.zoom, "magnification inside the inner radius", Range::positive);
+  visit.key("center", s.center, "lens centre, texture coordinates");
+  visit.key("inner", s.inner, "radius of the zoomed region, as a fraction of the box's longest edge",
+            Range::positive);
+  visit.key("outer", s.outer, "radius at which the volume is undisturbed again, likewise", Range::positive);
+  visit.key("depth_inner", s.depth_inner, "half depth of the zoomed region along the view (none: inner)",
+            Range::non_negative);
+  visit.key("depth_outer", s.depth_outer, "half depth at which planes are undisturbed again (none: outer)",
+            Range::positive);
+  visit.key("angular_segments", s.angular_segments, "corners of a tessellated circle");
+  visit.segments(
+      "radial_segments", s.radial_segments,
+      "rings of the tessellated border, or \"adaptive\": the fewest with less than half a pixel of error");
+  visit.key("homogeneous", s.homogeneous,
+            "false: affine texture coordinates, the wrong picture of LaMar's Figure 2(a)");
+  visit.key("bounded", s.bounded, "tessellate inside the bounding square of a circle only");
+}
+
+/// Calls the key function of the warp's kind.
+template <class Visitor, class AnyWarp>
+void warp_keys(Visitor& visit, AnyWarp& warp) {
+  std::visit([&](auto& value) { lamar_keys(visit, value); }, warp);
+}
+
+template <class Visitor, class Settings>
 void scene_keys(Visitor& visit, Settings& s) {
   visit.key("title", s.title, "shown in galleries and reports");
   visit.section("volume", s.volume, "what is rendered", [](auto& v, auto& x) { volume_keys(v, x); });
@@ -105,6 +134,7 @@ void scene_keys(Visitor& visit, Settings& s) {
   visit.section("render", s.render, "how it is sampled and composited",
                 [](auto& v, auto& x) { render_keys(v, x); });
   visit.section("light", s.light, "for shading", [](auto& v, auto& x) { light_keys(v, x); });
+  visit.warps("warp", s.warp);
   visit.list("clip", s.clip, "clipping planes", [](auto& v, auto& x) { clip_keys(v, x); });
 }
 

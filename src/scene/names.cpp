@@ -9,8 +9,11 @@ const std::vector<EnumName<ProjectionName>>& names_of(ProjectionName) {
 }
 
 const std::vector<EnumName<Pipeline>>& names_of(Pipeline) {
-  static const std::vector<EnumName<Pipeline>> names = {
-      {Pipeline::slices, "slices"}, {Pipeline::rays, "rays"}, {Pipeline::reference, "reference"}};
+  static const std::vector<EnumName<Pipeline>> names = {{Pipeline::slices, "slices"},
+                                                        {Pipeline::tessellated, "tessellated"},
+                                                        {Pipeline::fragment, "fragment"},
+                                                        {Pipeline::rays, "rays"},
+                                                        {Pipeline::reference, "reference"}};
   return names;
 }
 
@@ -82,6 +85,18 @@ const std::vector<EnumName<ContextName>>& names_of(ContextName) {
 const std::vector<EnumName<ClipSpace>>& names_of(ClipSpace) {
   static const std::vector<EnumName<ClipSpace>> names = {{ClipSpace::texture, "texture"},
                                                          {ClipSpace::object, "object"}};
+  return names;
+}
+
+const std::vector<EnumName<LensShape>>& names_of(LensShape) {
+  static const std::vector<EnumName<LensShape>> names = {{LensShape::circle, "circle"},
+                                                         {LensShape::square, "square"}};
+  return names;
+}
+
+const std::vector<EnumName<LensBorder>>& names_of(LensBorder) {
+  static const std::vector<EnumName<LensBorder>> names = {
+      {LensBorder::simple, "simple"}, {LensBorder::linear, "linear"}, {LensBorder::cubic, "cubic"}};
   return names;
 }
 

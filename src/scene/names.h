@@ -28,6 +28,8 @@ const std::vector<EnumName<VolumeTexture>>& names_of(VolumeTexture);
 const std::vector<EnumName<TransferTexture>>& names_of(TransferTexture);
 const std::vector<EnumName<ContextName>>& names_of(ContextName);
 const std::vector<EnumName<ClipSpace>>& names_of(ClipSpace);
+const std::vector<EnumName<LensShape>>& names_of(LensShape);
+const std::vector<EnumName<LensBorder>>& names_of(LensBorder);
 
 /// The word of an enumerator.
 template <class Enum>

@@ -43,13 +43,13 @@ void validate_render(const RenderSettings& render) {
   }
   if (render.early_termination <= 0)
     throw UsageError("render.early_termination must be above 0 and at most 1");
-  if (render.early_termination < 1 && render.pipeline == Pipeline::slices) {
+  if (render.early_termination < 1 && draws_slices(render.pipeline)) {
     throw UsageError("render.early_termination belongs to rays and reference; slices cannot stop early");
   }
-  if (render.order == Order::front_to_back && render.pipeline != Pipeline::slices) {
+  if (render.order == Order::front_to_back && !draws_slices(render.pipeline)) {
     throw UsageError("render.order front-to-back is for slices; rays always go front to back");
   }
-  if (render.mode == Mode::xray && render.target == Target::rgba8 && render.pipeline == Pipeline::slices) {
+  if (render.mode == Mode::xray && render.target == Target::rgba8 && draws_slices(render.pipeline)) {
     throw UsageError("mode 'xray' sums contributions far below 1/255, which target 'rgba8' rounds to "
                      "nothing; use rgba16f or rgba32f");
   }
@@ -63,6 +63,10 @@ void validate_render(const RenderSettings& render) {
 
 } // namespace
 
+bool draws_slices(Pipeline pipeline) {
+  return pipeline == Pipeline::slices || pipeline == Pipeline::tessellated || pipeline == Pipeline::fragment;
+}
+
 void validate(const Scene& scene) {
   validate_volume(scene.volume);
   if (scene.transfer.preset && scene.transfer.points) {
@@ -72,6 +76,13 @@ void validate(const Scene& scene) {
   validate_render(scene.render);
   if (scene.light.direction && glm::length(*scene.light.direction) == 0) {
     throw UsageError("light.direction is the zero vector; give a direction");
+  }
+  for (const Warp& warp : scene.warp) {
+    validate(warp);
+    if (scene.render.pipeline == Pipeline::slices) {
+      throw UsageError("pipeline 'slices' draws no warp; '" + kind_of(warp) +
+                       "' can be drawn by tessellated, fragment, rays or reference");
+    }
   }
   for (const ClipSettings& plane : scene.clip) {
     if (glm::length(plane.normal) == 0)

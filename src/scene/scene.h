@@ -2,6 +2,7 @@
 #pragma once
 
 #include "volume/volume.h"
+#include "warp/warp.h"
 
 #include <glm/glm.hpp>
 
@@ -49,7 +50,7 @@ struct CameraSettings {
   std::optional<double> parallel_scale = std::nullopt;
 };
 
-enum class Pipeline { slices, rays, reference };
+enum class Pipeline { slices, tessellated, fragment, rays, reference };
 enum class Mode { dvr, mip, xray };
 enum class Order { back_to_front, front_to_back };
 enum class OpacityCorrection { fragment, frame, none };
@@ -63,7 +64,7 @@ enum class ContextName { automatic, osmesa, egl, window };
 
 /// Section `render`.
 struct RenderSettings {
-  Pipeline pipeline = Pipeline::slices;
+  Pipeline pipeline = Pipeline::slices; ///< in files: none means slices, or the first warp's own paper's
   Mode mode = Mode::dvr;
   std::optional<double> xray_scale = std::nullopt; ///< none: one over the box diagonal in Δ₀
   std::array<std::size_t, 2> size{512, 512};
@@ -107,7 +108,11 @@ struct Scene {
   RenderSettings render;
   LightSettings light;
   std::vector<ClipSettings> clip;
+  std::vector<Warp> warp; ///< in forward order (METHODS §0)
 };
+
+/// Whether a pipeline blends slices (and not rays).
+bool draws_slices(Pipeline pipeline);
 
 /// Checks what single keys cannot say: alternatives given together, combinations that make no sense.
 /// Throws UsageError naming the keys.

@@ -208,6 +208,33 @@ public:
     }
   }
 
+  void segments(const char* name, std::optional<std::size_t>& field, const char*) {
+    const Json* value = take(name);
+    if (value == nullptr)
+      return;
+    if (*value == "adaptive") {
+      field = std::nullopt;
+    } else if (value->is_string()) {
+      refuse(full(name), *value, "give a whole number or \"adaptive\"");
+    } else {
+      read(*value, full(name), field.emplace(), Range::any);
+    }
+  }
+
+  /// One warp, or a list of warps.
+  void warps(const char* name, std::vector<Warp>& field) {
+    const Json* value = take(name);
+    if (value == nullptr)
+      return;
+    if (value->is_array()) {
+      for (std::size_t i = 0; i < value->size(); ++i) {
+        read_warp((*value)[i], full(name) + "[" + std::to_string(i) + "]", field.emplace_back());
+      }
+    } else {
+      read_warp(*value, full(name), field.emplace_back());
+    }
+  }
+
   void finish() const {
     for (const auto& [name, value] : object_.items()) {
       if (known_.count(name) != 0)
@@ -220,6 +247,21 @@ public:
   }
 
 private:
+  static void read_warp(const Json& json, const std::string& path, Warp& warp) {
+    Reader reader(json, path);
+    std::vector<std::string> kinds;
+    for (const WarpInfo& info : warp_infos())
+      kinds.push_back(info.kind);
+    const Json* kind = reader.take("kind");
+    if (kind == nullptr)
+      throw UsageError(path + ".kind is missing; give one of " + join(kinds));
+    if (!kind->is_string() || !make_warp(kind->get<std::string>()))
+      refuse(path + ".kind", *kind, "give one of " + join(kinds));
+    warp = *make_warp(kind->get<std::string>());
+    warp_keys(reader, warp);
+    reader.finish();
+  }
+
   template <class T, class Keys>
   static void read_object(const Json& json, const std::string& path, T& field, Keys keys) {
     Reader reader(json, path);
@@ -257,6 +299,19 @@ struct Writer {
     keys(writer, field);
     object[name] = writer.object;
   }
+  void segments(const char* name, const std::optional<std::size_t>& field, const char*) {
+    object[name] = field ? Json(*field) : Json("adaptive");
+  }
+  void warps(const char* name, const std::vector<Warp>& field) {
+    Json entries = Json::array();
+    for (const Warp& warp : field) {
+      Writer writer;
+      writer.object["kind"] = kind_of(warp);
+      warp_keys(writer, warp);
+      entries.push_back(writer.object);
+    }
+    object[name] = entries.size() == 1 ? entries[0] : entries;
+  }
   template <class T, class Keys>
   void list(const char* name, const std::vector<T>& field, const char*, Keys keys) {
     Json entries = Json::array();
@@ -286,6 +341,16 @@ struct Lister {
     Lister lister{keys, prefix + name + "."};
     visit_keys(lister, field);
   }
+  void segments(const char* name, const std::optional<std::size_t>&, const char* help) {
+    keys.emplace_back(prefix + name, help);
+  }
+  void warps(const char* name, const std::vector<Warp>&) {
+    for (const WarpInfo& info : warp_infos()) {
+      Lister lister{keys, std::string(name) + "(" + info.kind + ")."};
+      const Warp warp = *make_warp(info.kind);
+      warp_keys(lister, warp);
+    }
+  }
   template <class T, class Keys>
   void list(const char* name, const std::vector<T>&, const char*, Keys visit_keys) {
     Lister lister{keys, prefix + name + "[]."};
@@ -313,7 +378,8 @@ const std::vector<Alternatives>& alternatives() {
 }
 
 void remove_alternatives(Json& section, const std::string& section_name, const std::string& key) {
-  if (!section.is_object()) return; // nothing set in it yet
+  if (!section.is_object())
+    return; // nothing set in it yet
   for (const Alternatives& group : alternatives()) {
     if (section_name != group.section)
       continue;
@@ -325,7 +391,8 @@ void remove_alternatives(Json& section, const std::string& section_name, const s
     for (const auto& member : group.members) {
       if (has(member))
         continue;
-      for (const char* name : member) section.erase(name);
+      for (const char* name : member)
+        section.erase(name);
     }
   }
 }
@@ -374,6 +441,11 @@ void apply(Json& scene, const KeyValue& change) {
   (*node)[parts.back()] = value;
 }
 
+bool has_value(const Json& json, const char* section, const char* key) {
+  const auto found = json.find(section);
+  return found != json.end() && found->is_object() && found->contains(key) && !(*found)[key].is_null();
+}
+
 Json parse_text(const std::string& text, const std::string& source) {
   try {
     return Json::parse(text, nullptr, true, true);
@@ -416,6 +488,8 @@ Scene scene_from_json(const std::string& text, const std::string& source,
     reader.finish();
     if (!scene.volume.file && !scene.volume.phantom)
       scene.volume.phantom = "head";
+    if (!scene.warp.empty() && !has_value(json, "render", "pipeline"))
+      scene.render.pipeline = Pipeline::tessellated;
     validate(scene);
   } catch (const UsageError& error) {
     throw UsageError(source + ": " + error.what());

@@ -286,6 +286,55 @@ LensMesh tessellate_slice(const Polygon& polygon, const std::vector<LensTessella
   return mesh;
 }
 
+LensMesh cover_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
+                     const BoxSpace& space, const std::vector<Plane>& object_clip) {
+  LensMesh mesh;
+  if (polygon.size() < 3)
+    return mesh;
+  std::vector<LensPolygon> normal = {undisturbed(polygon)};
+  std::vector<Piece> pieces;
+  for (const LensTessellation& lens : lenses) {
+    LensTessellation square = lens;
+    square.bounded = true;
+    const double z = glm::dot(box_from_texture(space, polygon[0]) - lens.map.center, lens.map.forward);
+    const Footprint at{square, space, lens_plane(lens.map, z)};
+    if (!at.plane.touched)
+      continue;
+    std::vector<LensPolygon> rest;
+    for (const LensPolygon& part : normal) {
+      for (LensPolygon& outer : outside(part, at))
+        rest.push_back(std::move(outer));
+    }
+    normal = std::move(rest);
+    Piece whole;
+    whole.region = LensRegion::zoom;
+    for (const glm::dvec2& corner :
+         {glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(-1, -1)}) {
+      whole.polygon.push_back(at.still(lens.map.outer * corner));
+    }
+    pieces.push_back(std::move(whole));
+  }
+  std::vector<LensVertex> corners;
+  for (const Piece& piece : pieces)
+    corners.insert(corners.end(), piece.polygon.begin(), piece.polygon.end());
+  for (const LensPolygon& part : normal)
+    corners.insert(corners.end(), part.begin(), part.end());
+  for (LensPolygon& part : normal) {
+    if (!pieces.empty())
+      insert_shared_corners(part, corners);
+    pieces.push_back({std::move(part), LensRegion::normal});
+  }
+  for (Piece& piece : pieces) {
+    if (piece.region != LensRegion::normal)
+      insert_shared_corners(piece.polygon, corners);
+    for (const Plane& plane : object_clip)
+      piece.polygon = clip_position(piece.polygon, plane);
+    if (piece.polygon.size() >= 3)
+      append_fan(mesh, piece);
+  }
+  return mesh;
+}
+
 void refuse_overlap(const std::vector<LensTessellation>& lenses) {
   for (std::size_t i = 0; i < lenses.size(); ++i) {
     for (std::size_t j = i + 1; j < lenses.size(); ++j) {

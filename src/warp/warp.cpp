@@ -21,6 +21,12 @@ const std::vector<WarpInfo>& warp_infos() {
   return infos;
 }
 
+std::optional<Warp> make_warp(const std::string& kind) {
+  if (kind == "lamar")
+    return LamarLens{};
+  return std::nullopt;
+}
+
 void validate(const Warp& warp) {
   std::visit([](const auto& value) { validate(value); }, warp);
 }

@@ -25,6 +25,9 @@ struct WarpInfo {
 /// In the order in which they are listed to users.
 const std::vector<WarpInfo>& warp_infos();
 
+/// A warp of that kind with its defaults, or nothing.
+std::optional<Warp> make_warp(const std::string& kind);
+
 /// Throws UsageError naming warp and key for parameters that make no warp.
 void validate(const Warp& warp);
 

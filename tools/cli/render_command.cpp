@@ -51,7 +51,11 @@ void print_verbose(const RenderResult& result, const PreparedScene& prepared, do
     std::fprintf(stderr, "texture    %s, %.1f MiB\n", result.texture.c_str(),
                  static_cast<double>(result.texture_bytes) / (1 << 20));
   if (result.slices > 0)
-    std::fprintf(stderr, "slices     %zu\n", result.slices);
+    std::fprintf(stderr, "slices     %zu, %zu triangles\n", result.slices, result.triangles);
+  for (const LensTessellation& lens : prepared.lenses) {
+    std::fprintf(stderr, "lens       %zu angular and %zu radial segments\n", lens.ring.size(),
+                 lens.radial_segments);
+  }
   const RenderTimes& t = result.times;
   std::fprintf(stderr,
                "load       %8.3f s\ncontext    %8.3f s\nupload     %8.3f s\ncompile    %8.3f s\nslice      "

@@ -1,0 +1,59 @@
+#include "render/stack_geometry.h"
+
+#include "core/errors.h"
+#include "slicing/slice_stack.h"
+
+#include <limits>
+
+namespace slicelens {
+
+namespace {
+
+void append_mesh(StackGeometry& geometry, const LensMesh& mesh) {
+  if (geometry.vertices.size() + mesh.vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw LimitError(
+        "the lens has too many triangles for one picture; use fewer segments or a larger spacing");
+  }
+  const auto first = static_cast<std::uint32_t>(geometry.vertices.size());
+  for (const LensVertex& vertex : mesh.vertices)
+    geometry.vertices.push_back({glm::vec3(vertex.position), glm::vec4(vertex.texture)});
+  for (const std::uint32_t index : mesh.triangles)
+    geometry.indices.push_back(first + index);
+  geometry.regions.insert(geometry.regions.end(), mesh.regions.begin(), mesh.regions.end());
+  geometry.index_ends.push_back(geometry.indices.size());
+}
+
+} // namespace
+
+StackGeometry make_stack_geometry(const PreparedScene& prepared) {
+  const RenderSettings& render = prepared.scene.render;
+  const bool warped = !prepared.lenses.empty();
+  SliceRequest request;
+  request.box = prepared.box;
+  request.view = prepared.view;
+  request.spacing = prepared.spacing;
+  request.order =
+      render.order == Order::front_to_back ? SliceOrder::front_to_back : SliceOrder::back_to_front;
+  if (!warped) {
+    request.clip = prepared.data_clip;
+    request.clip.insert(request.clip.end(), prepared.object_clip.begin(), prepared.object_clip.end());
+  }
+  const SliceStack stack = make_slice_stack(request);
+
+  StackGeometry geometry;
+  const LensClip clip{prepared.data_clip, prepared.object_clip};
+  for (const Slice& slice : stack.slices) {
+    const Polygon polygon(stack.corners.begin() + slice.first,
+                          stack.corners.begin() + slice.first + slice.count);
+    if (!warped) {
+      append_mesh(geometry, cover_slice(polygon, {}, prepared.space, {}));
+    } else if (render.pipeline == Pipeline::fragment) {
+      append_mesh(geometry, cover_slice(polygon, prepared.lenses, prepared.space, prepared.object_clip));
+    } else {
+      append_mesh(geometry, tessellate_slice(polygon, prepared.lenses, prepared.space, clip));
+    }
+  }
+  return geometry;
+}
+
+} // namespace slicelens

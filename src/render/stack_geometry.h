@@ -1,0 +1,28 @@
+// The triangles of a whole stack in drawing order, as the GPU takes them.
+#pragma once
+
+#include "render/prepare.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace slicelens {
+
+/// One corner, 7 floats.
+struct StackVertex {
+  glm::vec3 position; ///< where it is shown: texture coordinates of the displayed volume
+  glm::vec4 texture;  ///< (s·q, t·q, r·q, q) of the data looked at; read by pipeline `tessellated` only
+};
+
+struct StackGeometry {
+  std::vector<StackVertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< three a triangle
+  std::vector<std::size_t> index_ends; ///< of each slice
+  std::vector<LensRegion> regions;     ///< of each triangle
+};
+
+/// Cuts the stack for the scene's view and pipeline: plain polygons, lens triangles, or covers for lenses
+/// evaluated at each fragment. Throws UsageError for a spacing that is too fine.
+StackGeometry make_stack_geometry(const PreparedScene& prepared);
+
+} // namespace slicelens
