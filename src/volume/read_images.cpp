@@ -1,10 +1,10 @@
 #include "core/errors.h"
 #include "volume/file_checks.h"
 #include "volume/itk_reading.h"
+#include "volume/png_slice.h"
 #include "volume/readers.h"
 
 #include <itkJPEGImageIO.h>
-#include <itkPNGImageIO.h>
 #include <itkTIFFImageIO.h>
 
 #include <algorithm>
@@ -15,27 +15,49 @@ namespace fs = std::filesystem;
 
 namespace {
 
-itk::ImageIOBase::Pointer io_for(const std::string& kind) {
-  if (kind == "PNG")
-    return itk::PNGImageIO::New().GetPointer();
-  if (kind == "TIFF")
-    return itk::TIFFImageIO::New().GetPointer();
-  return itk::JPEGImageIO::New().GetPointer();
-}
+/// One image file; ITK reads TIFF and JPEG, libpng PNG.
+class SliceFile {
+public:
+  SliceFile(const std::string& kind, const fs::path& file) : file_(file) {
+    const std::uintmax_t bytes = require_file(file);
+    if (kind == "TIFF")
+      io_ = itk::TIFFImageIO::New().GetPointer();
+    else if (kind == "JPEG")
+      io_ = itk::JPEGImageIO::New().GetPointer();
+    if (io_) {
+      io_->SetFileName(file.string());
+      io_->ReadImageInformation();
+    }
+    header_ = io_ ? header_of(*io_, file) : png_header(file);
+    check_claim(file, "size", voxel_bytes(header_), bytes, Encoding::codec);
+  }
+
+  const Volume& header() const { return header_; }
+
+  /// Writes voxel_bytes(header()) bytes.
+  void read(std::byte* out) {
+    if (!io_) {
+      read_png(file_, out);
+      return;
+    }
+    itk::ImageIORegion region(io_->GetNumberOfDimensions());
+    for (unsigned axis = 0; axis < io_->GetNumberOfDimensions(); ++axis) {
+      region.SetIndex(axis, 0);
+      region.SetSize(axis, io_->GetDimensions(axis));
+    }
+    io_->SetIORegion(region);
+    io_->Read(out);
+  }
+
+private:
+  fs::path file_;
+  itk::ImageIOBase::Pointer io_;
+  Volume header_;
+};
 
 std::string shape_text(const Volume& v) {
   return std::to_string(v.dims[0]) + " x " + std::to_string(v.dims[1]) + " " + name_of(v.type) + " with " +
          std::to_string(v.components) + " component(s)";
-}
-
-/// Header of one image, checked against what its file can hold.
-Volume image_header(itk::ImageIOBase& io, const fs::path& file) {
-  const std::uintmax_t bytes = require_file(file);
-  io.SetFileName(file.string());
-  io.ReadImageInformation();
-  Volume image = header_of(io, file);
-  check_claim(file, "size", voxel_bytes(image), bytes, Encoding::codec);
-  return image;
 }
 
 } // namespace
@@ -64,8 +86,8 @@ Volume read_images(const std::vector<fs::path>& files, const Progress& progress)
       throw FileError(file.string(), "is no " + kind + " image as " + files.front().filename().string() +
                                          " before it is; a stack holds one kind");
     with_libraries(file, progress, [&] {
-      const auto io = io_for(kind);
-      Volume image = image_header(*io, file);
+      SliceFile slice(kind, file);
+      const Volume& image = slice.header();
       if (k == 0) {
         volume = image;
         slice_bytes = voxel_bytes(image);
@@ -85,15 +107,9 @@ Volume read_images(const std::vector<fs::path>& files, const Progress& progress)
         throw FileError(file.string(), "is " + shape_text(image) + " but " +
                                            files.front().filename().string() + " is " + shape_text(volume) +
                                            "; a stack needs images of one size");
-      itk::ImageIORegion region(io->GetNumberOfDimensions());
-      for (unsigned axis = 0; axis < io->GetNumberOfDimensions(); ++axis) {
-        region.SetIndex(axis, 0);
-        region.SetSize(axis, io->GetDimensions(axis));
-      }
-      io->SetIORegion(region);
       if (files.size() == 1)
         volume.voxels.resize(slice_bytes);
-      io->Read(volume.voxels.data() + k * slice_bytes);
+      slice.read(volume.voxels.data() + k * slice_bytes);
     });
     report_progress(progress, "load", static_cast<double>(k + 1) / static_cast<double>(files.size()));
   }
