@@ -36,7 +36,7 @@ std::pair<unsigned, unsigned> png_size(const std::string& png) {
 
 } // namespace
 
-TEST_CASE("--help of the program and of each command mentions every option") {
+TEST_CASE("help of the program and of each command mentions every option") {
   const Workplace place;
   CHECK_THAT(done(place, {"--help"}).out,
              Contains("render") && Contains("compare") && Contains("info") && Contains("phantom") &&
@@ -56,7 +56,7 @@ TEST_CASE("--help of the program and of each command mentions every option") {
   }
 }
 
-TEST_CASE("--version and the lists") {
+TEST_CASE("the version and the lists") {
   const Workplace place;
   CHECK(done(place, {"--version"}).out == std::string("slicelens ") + SLICELENS_VERSION + "\n");
   CHECK_THAT(done(place, {"list", "contexts"}).out,
@@ -98,7 +98,7 @@ TEST_CASE("phantoms are written in each format and read back as they are") {
   }
 }
 
-TEST_CASE("--print-scene shows a scene that means the same") {
+TEST_CASE("render --print-scene shows a scene that means the same") {
   const Workplace place;
   put(place / "s.json", small_scene);
   const std::string first =
@@ -227,7 +227,7 @@ TEST_CASE("a gallery of a scene and of volumes holds its pictures") {
         3 * (1 + 5 + 1)); // slices, rays and their difference: two scenes, five views of the volume
 }
 
-TEST_CASE("--verbose says where the time went, on stderr") {
+TEST_CASE("render --verbose says where the time went, on stderr") {
   const Workplace place;
   put(place / "s.json", small_scene);
   const Outcome outcome = place.run({"render", "s.json", "-o", "a.png", "--verbose"});
