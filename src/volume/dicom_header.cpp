@@ -60,6 +60,22 @@ struct Element {
   std::uint32_t length = 0;
 };
 
+/// The value representation (PS3.6) of the elements that GDCM's image reader takes, whose other types it
+/// asserts against.
+const char* vr_of(std::uint32_t tag) {
+  static const std::map<std::uint32_t, const char*> known = {
+      {0x00020002, "UI"}, {0x00020003, "UI"}, {0x00020010, "UI"}, {0x00080008, "CS"}, {0x00080016, "UI"},
+      {0x00080018, "UI"}, {0x00080060, "CS"}, {0x00180050, "DS"}, {0x00180088, "DS"}, {0x00181164, "DS"},
+      {0x00182010, "DS"}, {0x0020000d, "UI"}, {0x0020000e, "UI"}, {0x00200032, "DS"}, {0x00200037, "DS"},
+      {0x00280002, "US"}, {0x00280004, "CS"}, {0x00280006, "US"}, {0x00280008, "IS"}, {0x00280009, "AT"},
+      {0x00280010, "US"}, {0x00280011, "US"}, {0x00280030, "DS"}, {0x00280034, "IS"}, {0x00280100, "US"},
+      {0x00280101, "US"}, {0x00280102, "US"}, {0x00280103, "US"}, {0x00281050, "DS"}, {0x00281051, "DS"},
+      {0x00281052, "DS"}, {0x00281053, "DS"}, {0x00281054, "LO"}, {0x00282110, "CS"}, {0x3002000e, "DS"},
+      {0x3004000c, "DS"}, {0x00540081, "US"}, {0x30020011, "DS"}, {0x00280014, "US"}, {0x00280005, "US"}};
+  const auto found = known.find(tag);
+  return found == known.end() ? nullptr : found->second;
+}
+
 std::string tag_text(std::uint32_t tag) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "(%04x,%04x)", tag >> 16, tag & 0xffff);
@@ -130,8 +146,11 @@ private:
       element.vr = std::string(bytes_.substr(at + 4, 2));
       static const std::vector<std::string> wide = {"OB", "OW", "OF", "OD", "OL", "OV", "SQ",
                                                     "UC", "UR", "UT", "UN", "SV", "UV"};
-      const auto letter = [](char c) { return c >= 'A' && c <= 'Z'; };
-      if (!letter(element.vr[0]) || !letter(element.vr[1]))
+      static const std::vector<std::string> narrow = {"AE", "AS", "AT", "CS", "DA", "DS", "DT",
+                                                      "FL", "FD", "IS", "LO", "LT", "PN", "SH",
+                                                      "SL", "SS", "ST", "TM", "UI", "UL", "US"};
+      if (std::find(wide.begin(), wide.end(), element.vr) == wide.end() &&
+          std::find(narrow.begin(), narrow.end(), element.vr) == narrow.end())
         damaged("element " + tag_text(element.tag) + " has no value representation; the file is damaged");
       if (std::find(wide.begin(), wide.end(), element.vr) == wide.end()) {
         element.length = u16(at + 6, encoded.big);
@@ -153,6 +172,13 @@ private:
   std::size_t contents(const Element& element, std::size_t at, std::size_t end, Encoded encoded, int depth) {
     if (element.tag >> 16 == 0xfffe)
       damaged("has an item " + tag_text(element.tag) + " outside a sequence; the file is damaged");
+    const char* const vr = vr_of(element.tag);
+    if (vr != nullptr && ((!element.vr.empty() && element.vr != vr) ||
+                          (std::string(vr) == "US" && element.length != 2 && element.length != 0)))
+      damaged("element " + tag_text(element.tag) + " is of type '" + element.vr + "' with " +
+              std::to_string(element.length) + " bytes where '" + vr + "' belongs; the file is damaged");
+    if (element.tag == pixel_data && !element.vr.empty() && element.vr != "OB" && element.vr != "OW")
+      damaged("its pixel data are of type '" + element.vr + "'; OB or OW belongs there");
     if (element.tag == pixel_data && depth == 0) {
       header_.has_pixels = true;
       if (element.length == undefined)
@@ -201,9 +227,26 @@ private:
       if (item.tag != item_tag || item.length == undefined)
         damaged("its compressed pixel data are damaged");
       header_.pixel_bytes += item.length;
+      check_jpeg2000(at, item.length);
       at += item.length;
     }
     damaged("ends before its compressed pixel data do; the file is truncated");
+  }
+
+  /// GDCM decodes a JPEG 2000 picture into a buffer of Rows and Columns whatever the picture's own size is
+  /// (SIZ marker: ISO/IEC 15444-1 A.5.1), so the two must agree.
+  void check_jpeg2000(std::size_t at, std::size_t length) const {
+    if (length < 42 || u32(at, true) != 0xff4fff51)
+      return;
+    const std::size_t columns = header_.number(0x00280011, 0);
+    const std::size_t rows = header_.number(0x00280010, 0);
+    const std::size_t samples = header_.number(0x00280002, 1);
+    bool agrees = u32(at + 8, true) == columns && u32(at + 12, true) == rows && u32(at + 16, true) == 0 &&
+                  u32(at + 20, true) == 0 && u16(at + 40, true) == samples && length >= 42 + 3 * samples;
+    for (std::size_t sample = 0; agrees && sample < samples; ++sample)
+      agrees = bytes_[at + 43 + 3 * sample] == 1 && bytes_[at + 44 + 3 * sample] == 1; // no subsampling
+    if (!agrees)
+      damaged("a JPEG 2000 picture in it is not of Rows x Columns x Samples; the file is damaged");
   }
 
   const fs::path& path_;

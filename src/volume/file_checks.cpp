@@ -171,7 +171,9 @@ std::vector<std::string> numbered_names(const fs::path& path, const std::string&
   if (!std::regex_match(pattern, integer))
     throw FileError(path.string(), "the data file pattern '" + one_line(pattern) +
                                        "' needs exactly one integer conversion such as %03d");
-  if (step == 0 || (last - first) / step < 0 || static_cast<std::size_t>((last - first) / step) >= limit)
+  constexpr long long most = 1000000000; // keeps the arithmetic and the int of the conversion in range
+  if (std::abs(first) > most || std::abs(last) > most || std::abs(step) > most || step == 0 ||
+      (last - first) / step < 0 || static_cast<std::size_t>((last - first) / step) >= limit)
     throw FileError(path.string(), "the range of the data file pattern '" + one_line(pattern) +
                                        "' gives no or too many files");
   std::vector<std::string> names;

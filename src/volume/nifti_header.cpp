@@ -191,6 +191,21 @@ void set_affine(const fs::path& path, const Fields& f, NiftiHeader& header) {
                                          number_text(f.pixdim[axis]) + "; a finite number is needed");
   }
   const double unit = (f.units & 7) == 1 ? 1000 : (f.units & 7) == 3 ? 0.001 : 1; // to mm
+  // ITK's decomposition of the axes does not end for numbers whose squares overflow a float.
+  const auto refuse_wild = [&](const std::string& field, const auto& numbers) {
+    for (const double number : numbers) {
+      if (!(std::abs(number) < 1e9))
+        throw FileError(path.string(),
+                        "the " + field + " holds " + number_text(number) + "; the header is damaged");
+    }
+  };
+  if (f.sform_code > 0)
+    refuse_wild("sform", f.srow);
+  if (f.qform_code > 0) {
+    refuse_wild("qform", f.quaternion);
+    refuse_wild("qform", f.offset);
+  }
+  refuse_wild("pixdim", std::array<double, 3>{f.pixdim[1], f.pixdim[2], f.pixdim[3]});
   header.affine = ras_from_index(f);
   std::array<glm::dvec3, 3> axes;
   for (int column = 0; column < 4; ++column) {

@@ -1,10 +1,10 @@
 #include "core/errors.h"
 #include "volume/file_checks.h"
 #include "volume/itk_reading.h"
+#include "volume/jpeg_slice.h"
 #include "volume/png_slice.h"
 #include "volume/readers.h"
 
-#include <itkJPEGImageIO.h>
 #include <itkTIFFImageIO.h>
 
 #include <algorithm>
@@ -15,20 +15,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// One image file; ITK reads TIFF and JPEG, libpng PNG.
+/// One image file; ITK reads TIFF.
 class SliceFile {
 public:
-  SliceFile(const std::string& kind, const fs::path& file) : file_(file) {
+  SliceFile(const std::string& kind, const fs::path& file) : file_(file), is_png_(kind == "PNG") {
     const std::uintmax_t bytes = require_file(file);
     if (kind == "TIFF")
       io_ = itk::TIFFImageIO::New().GetPointer();
-    else if (kind == "JPEG")
-      io_ = itk::JPEGImageIO::New().GetPointer();
     if (io_) {
       io_->SetFileName(file.string());
       io_->ReadImageInformation();
     }
-    header_ = io_ ? header_of(*io_, file) : png_header(file);
+    header_ = io_ ? header_of(*io_, file) : is_png_ ? png_header(file) : jpeg_header(file);
     check_claim(file, "size", voxel_bytes(header_), bytes, Encoding::codec);
   }
 
@@ -37,7 +35,7 @@ public:
   /// Writes voxel_bytes(header()) bytes.
   void read(std::byte* out) {
     if (!io_) {
-      read_png(file_, out);
+      is_png_ ? read_png(file_, out) : read_jpeg(file_, out);
       return;
     }
     itk::ImageIORegion region(io_->GetNumberOfDimensions());
@@ -51,6 +49,7 @@ public:
 
 private:
   fs::path file_;
+  bool is_png_;
   itk::ImageIOBase::Pointer io_;
   Volume header_;
 };

@@ -78,7 +78,7 @@ TEST_CASE("a NRRD header that is wrong is refused by its field") {
        {"type: short\n", "", "type"},
        {"endian: little\n", "", "endian"},
        {"encoding: raw", "encoding: bzip2", "bzip2"},
-       {"encoding: raw", "encoding: gzip", ""},
+       {"encoding: raw", "encoding: gzip", "gzip"},
        {"spacings: 1 1 1", "spacings: 1 nan 1", "spacings"},
        {"spacings: 1 1 1", "spacings: 1 inf 1", "spacings"},
        {"spacings: 1 1 1", "spacings: 0 1 1", "spacings"},

@@ -206,6 +206,7 @@ TEST_CASE("NIfTI that holds no volume or lies is refused by its field") {
   refused([](std::string& h) { put<std::int16_t>(h, 42, 32767); }, "dim");
   refused([](std::string& h) { put<std::int32_t>(h, 0, 349); }, "sizeof_hdr");
   refused([](std::string& h) { put<float>(h, 80, std::nanf("")); }, "pixdim[1]");
+  refused([](std::string& h) { set_sform(h, {-1.7e38f, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0}); }, "sform");
   refused([](std::string& h) { put<float>(h, 108, 1e9f); }, "dim");
   refused([](std::string& h) { put<float>(h, 108, std::nanf("")); }, "vox_offset");
   refused([](std::string& h) { put<std::int16_t>(h, 68, 3001); }, "CIFTI");

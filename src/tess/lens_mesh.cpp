@@ -1,0 +1,312 @@
+#include "tess/lens_mesh.h"
+
+#include "core/errors.h"
+#include "tess/homogeneous.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slicelens {
+
+namespace {
+
+/// A polygon of the slice with the region it belongs to.
+struct Piece {
+  LensPolygon polygon;
+  LensRegion region = LensRegion::normal;
+};
+
+/// A lens on the slice's plane.
+struct Footprint {
+  const LensTessellation& lens;
+  const BoxSpace& space;
+  LensPlane plane;
+
+  glm::dvec3 box_point(const glm::dvec2& across) const {
+    return plane.axis_point + (across.x * plane.scale) * lens.map.right +
+           (across.y * plane.scale) * lens.map.up;
+  }
+
+  /// A corner shown at `across` (radii at the centre's depth) that looks at `texture_across`.
+  LensVertex vertex(const glm::dvec2& across, const glm::dvec2& texture_across, double weight) const {
+    const double q = lens.homogeneous ? weight : 1;
+    const glm::dvec3 texture = texture_from_box(space, box_point(texture_across));
+    return {texture_from_box(space, box_point(across)), glm::dvec4(texture * q, q)};
+  }
+
+  /// A corner of the undisturbed region: looks at itself.
+  LensVertex still(const glm::dvec2& across) const { return vertex(across, across, 1); }
+
+  /// Half-plane of the slice's plane: across·normal ≥ offset, as a plane of texture coordinates.
+  Plane half_plane(const glm::dvec2& normal, double offset) const {
+    const glm::dvec3 n = normal.x * lens.map.right + normal.y * lens.map.up;
+    return {n * space.size, glm::dot(n, plane.axis_point) + offset * plane.scale};
+  }
+
+  /// Corner j of the ring of geometry radius r.
+  glm::dvec2 ring(std::size_t j, double r) const { return r * lens.ring[j % lens.ring.size()]; }
+};
+
+/// Radius, texture radius and weight of each ring of the border (METHODS §1, "Tessellation").
+struct Ring {
+  double radius = 0;
+  double texture_radius = 0;
+  double weight = 1;
+};
+
+std::vector<Ring> rings_of(const Footprint& at) {
+  const LamarMap& map = at.lens.map;
+  const std::size_t n = at.lens.radial_segments;
+  std::vector<Ring> rings;
+  for (std::size_t k = 0; k <= n; ++k) {
+    const double r =
+        k == n ? map.outer
+               : map.inner + (map.outer - map.inner) * static_cast<double>(k) / static_cast<double>(n);
+    const double f =
+        k == n ? r : radial_profile(at.lens.border, at.plane.minification, map.inner, map.outer, r).value;
+    rings.push_back({r, f, r / f});
+  }
+  return rings;
+}
+
+/// The zoom region: one polygon with one weight, so its map is affine.
+Piece zoom_piece(const Footprint& at, const Ring& inner) {
+  Piece piece;
+  piece.region = LensRegion::zoom;
+  for (std::size_t j = 0; j < at.lens.ring.size(); ++j) {
+    piece.polygon.push_back(
+        at.vertex(at.ring(j, inner.radius), at.ring(j, inner.texture_radius), inner.weight));
+  }
+  return piece;
+}
+
+void append_border(std::vector<Piece>& pieces, const Footprint& at, const std::vector<Ring>& rings) {
+  for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
+    for (std::size_t j = 0; j < at.lens.ring.size(); ++j) {
+      Piece piece;
+      piece.region = LensRegion::border;
+      const auto corner = [&](std::size_t spoke, const Ring& ring) {
+        piece.polygon.push_back(
+            at.vertex(at.ring(spoke, ring.radius), at.ring(spoke, ring.texture_radius), ring.weight));
+      };
+      corner(j, rings[k]);
+      corner(j, rings[k + 1]);
+      corner(j + 1, rings[k + 1]);
+      corner(j + 1, rings[k]);
+      pieces.push_back(std::move(piece));
+    }
+  }
+}
+
+/// Where the ray from the axis along `direction` leaves the square of half edge 1.
+glm::dvec2 on_square(const glm::dvec2& direction) {
+  return direction / std::max(std::abs(direction.x), std::abs(direction.y));
+}
+
+/// The undisturbed region between a circle's outer ring and its bounding square: one piece for each angular
+/// segment, with the square's corner where it has one (LaMar Fig. 6).
+void append_square_rest(std::vector<Piece>& pieces, const Footprint& at) {
+  const double outer = at.lens.map.outer;
+  const std::size_t n = at.lens.ring.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    const glm::dvec2 a = at.lens.ring[j];
+    const glm::dvec2 b = at.lens.ring[(j + 1) % n];
+    const glm::dvec2 from = on_square(a);
+    const glm::dvec2 to = on_square(b);
+    std::vector<glm::dvec2> outline = {a, from};
+    // Corners of the square strictly between the two directions; wide segments pass up to two.
+    constexpr glm::dvec2 square[] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    std::vector<std::pair<double, glm::dvec2>> passed;
+    for (const glm::dvec2& corner : square) {
+      const auto turn = [&](const glm::dvec2& v) {
+        const double angle = std::atan2(a.x * v.y - a.y * v.x, glm::dot(a, v));
+        return angle < -1e-12 ? angle + 2 * 3.14159265358979323846 : angle;
+      };
+      if (turn(corner) > 1e-12 && turn(corner) < turn(b) - 1e-12)
+        passed.emplace_back(turn(corner), corner);
+    }
+    std::sort(passed.begin(), passed.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+    for (const auto& [angle, corner] : passed)
+      outline.push_back(corner);
+    outline.push_back(to);
+    outline.push_back(b);
+    Piece piece;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      if (glm::length(outline[i] - outline[(i + 1) % outline.size()]) < 1e-12)
+        continue;
+      piece.polygon.push_back(at.still(outer * outline[i]));
+    }
+    if (piece.polygon.size() >= 3)
+      pieces.push_back(std::move(piece));
+  }
+}
+
+LensPolygon undisturbed(const Polygon& polygon) {
+  LensPolygon result;
+  for (const glm::dvec3& corner : polygon)
+    result.push_back({corner, glm::dvec4(corner, 1)});
+  return result;
+}
+
+/// What a convex polygon keeps outside the footprint, in convex parts: at most four beside a square, one for
+/// each angular segment beside an unbounded circle.
+std::vector<LensPolygon> outside(const LensPolygon& polygon, const Footprint& at) {
+  std::vector<LensPolygon> parts;
+  const double outer = at.lens.map.outer;
+  const auto keep = [&](LensPolygon part) {
+    if (part.size() >= 3)
+      parts.push_back(std::move(part));
+  };
+  if (at.lens.bounded) {
+    LensPolygon rest = polygon;
+    for (const glm::dvec2& normal :
+         {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+      keep(clip_position(rest, at.half_plane(normal, outer)));
+      rest = clip_position(rest, at.half_plane(-normal, -outer));
+    }
+    return parts;
+  }
+  const std::size_t n = at.lens.ring.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    const glm::dvec2 a = at.lens.ring[j];
+    const glm::dvec2 b = at.lens.ring[(j + 1) % n];
+    const glm::dvec2 edge_normal = glm::normalize(a + b);
+    LensPolygon part = clip_position(polygon, at.half_plane(edge_normal, outer * glm::dot(edge_normal, a)));
+    part = clip_position(part, at.half_plane({-a.y, a.x}, 0));
+    keep(clip_position(part, at.half_plane({b.y, -b.x}, 0)));
+  }
+  return parts;
+}
+
+/// Gives every edge the corners of other pieces that lie on it, so that neighbours share all corners (a
+/// T-junction would let the rasteriser's snapping open a crack).
+void insert_shared_corners(LensPolygon& polygon, const std::vector<LensVertex>& corners) {
+  LensPolygon result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const LensVertex& a = polygon[i];
+    const LensVertex& b = polygon[(i + 1) % polygon.size()];
+    result.push_back(a);
+    const glm::dvec3 edge = b.position - a.position;
+    const double length2 = glm::dot(edge, edge);
+    std::vector<std::pair<double, const LensVertex*>> found;
+    for (const LensVertex& corner : corners) {
+      const glm::dvec3 d = corner.position - a.position;
+      const double x = glm::dot(d, edge) / length2;
+      if (!(x > 1e-9 && x < 1 - 1e-9))
+        continue;
+      const glm::dvec3 off = d - x * edge;
+      if (glm::dot(off, off) < 1e-20)
+        found.emplace_back(x, &corner);
+    }
+    std::sort(found.begin(), found.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+    double last = 0;
+    for (const auto& [x, corner] : found) {
+      if (x - last > 1e-9)
+        result.push_back({corner->position, glm::dvec4(corner->position, 1)});
+      last = x;
+    }
+  }
+  polygon = std::move(result);
+}
+
+void append_fan(LensMesh& mesh, const Piece& piece) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), piece.polygon.begin(), piece.polygon.end());
+  for (std::uint32_t i = 2; i < piece.polygon.size(); ++i) {
+    mesh.triangles.insert(mesh.triangles.end(), {first, first + i - 1, first + i});
+    mesh.regions.push_back(piece.region);
+  }
+}
+
+/// Pieces of one lens on the slice, before they are clipped to the volume.
+std::vector<Piece> lens_pieces(const Footprint& at) {
+  std::vector<Piece> pieces;
+  const std::vector<Ring> rings = rings_of(at);
+  pieces.push_back(zoom_piece(at, rings.front()));
+  append_border(pieces, at, rings);
+  if (at.lens.bounded && at.lens.ring.size() != 4)
+    append_square_rest(pieces, at);
+  if (at.lens.bounded && at.lens.ring.size() == 4 && !at.lens.map.square)
+    append_square_rest(pieces, at);
+  return pieces;
+}
+
+} // namespace
+
+LensMesh tessellate_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
+                          const BoxSpace& space, const LensClip& clip_planes) {
+  LensMesh mesh;
+  if (polygon.size() < 3)
+    return mesh;
+  std::vector<LensPolygon> normal = {undisturbed(polygon)};
+  std::vector<Piece> pieces;
+  for (const LensTessellation& lens : lenses) {
+    const double z = glm::dot(box_from_texture(space, polygon[0]) - lens.map.center, lens.map.forward);
+    const Footprint at{lens, space, lens_plane(lens.map, z)};
+    if (!at.plane.touched)
+      continue;
+    std::vector<LensPolygon> rest;
+    for (const LensPolygon& part : normal) {
+      for (LensPolygon& outer : outside(part, at))
+        rest.push_back(std::move(outer));
+    }
+    normal = std::move(rest);
+    for (Piece& piece : lens_pieces(at))
+      pieces.push_back(std::move(piece));
+  }
+  const std::vector<TextureHalfSpace> faces = faces_of(glm::dvec3(0), glm::dvec3(1));
+  for (Piece& piece : pieces) {
+    for (const TextureHalfSpace& face : faces)
+      piece.polygon = clip(piece.polygon, face);
+  }
+  if (!pieces.empty()) {
+    // Only undisturbed corners can lie on the edges of undisturbed pieces.
+    std::vector<LensVertex> corners;
+    for (const Piece& piece : pieces) {
+      for (const LensVertex& vertex : piece.polygon) {
+        if (vertex.texture.w == 1 && glm::length(glm::dvec3(vertex.texture) - vertex.position) < 1e-10)
+          corners.push_back(vertex);
+      }
+    }
+    for (const LensPolygon& part : normal)
+      corners.insert(corners.end(), part.begin(), part.end());
+    for (LensPolygon& part : normal)
+      insert_shared_corners(part, corners);
+  }
+  for (LensPolygon& part : normal)
+    pieces.push_back({std::move(part), LensRegion::normal});
+  for (Piece& piece : pieces) {
+    for (const Plane& plane : clip_planes.texture)
+      piece.polygon = clip(piece.polygon, homogeneous(plane));
+    for (const Plane& plane : clip_planes.object)
+      piece.polygon = clip_position(piece.polygon, plane);
+    if (piece.polygon.size() >= 3)
+      append_fan(mesh, piece);
+  }
+  return mesh;
+}
+
+void refuse_overlap(const std::vector<LensTessellation>& lenses) {
+  for (std::size_t i = 0; i < lenses.size(); ++i) {
+    for (std::size_t j = i + 1; j < lenses.size(); ++j) {
+      const LamarMap& a = lenses[i].map;
+      const LamarMap& b = lenses[j].map;
+      const double depth = glm::dot(b.center - a.center, a.forward);
+      if (std::abs(depth) >= a.depth_outer + b.depth_outer)
+        continue;
+      // At the depth of b's centre; under perspective both footprints scale alike.
+      const LensPlane plane = lens_plane(a, depth);
+      const glm::dvec3 offset = b.center - plane.axis_point;
+      const glm::dvec2 across(std::abs(glm::dot(offset, a.right)), std::abs(glm::dot(offset, a.up)));
+      const bool squares = lenses[i].bounded || lenses[j].bounded;
+      const double distance = squares ? std::max(across.x, across.y) : glm::length(across);
+      if (distance < a.outer * plane.scale + b.outer) {
+        throw UsageError("warp 'lamar': lenses " + std::to_string(i) + " and " + std::to_string(j) +
+                         " overlap; move them apart, shrink outer or depth_outer" +
+                         (squares ? ", or set bounded to false so that circles may stand closer" : ""));
+      }
+    }
+  }
+}
+
+} // namespace slicelens
