@@ -73,7 +73,7 @@ fs::path find_module(const std::string& name) {
   const std::string file = "lib" + name + ".so";
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  const fs::path places[] = {program, program / ".." / SLICELENS_INSTALL_LIBDIR / "slicelens",
+  const fs::path places[] = {program, program / SLICELENS_MODULES_FROM_PROGRAM,
                              fs::path(SLICELENS_BUILD_DIR)};
   std::string looked;
   for (const fs::path& place : places) {

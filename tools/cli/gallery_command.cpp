@@ -10,9 +10,11 @@
 #include "scene/scene_json.h"
 #include "study/gallery.h"
 
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <system_error>
 
 namespace slicelens {
@@ -63,6 +65,21 @@ std::vector<GalleryScene> scenes_of_volume(const std::string& volume, const std:
   return scenes;
 }
 
+/// Makes the names fit for files and for links without escapes, and no two the same.
+void name_files(std::vector<GalleryScene>& scenes) {
+  std::set<std::string> taken;
+  for (GalleryScene& scene : scenes) {
+    for (char& c : scene.name) {
+      if (static_cast<unsigned char>(c) < 0x80 && std::isalnum(static_cast<unsigned char>(c)) == 0 &&
+          c != '-' && c != '.')
+        c = '_';
+    }
+    const std::string name = scene.name;
+    for (int n = 2; !taken.insert(scene.name).second; ++n)
+      scene.name = name + "_" + std::to_string(n);
+  }
+}
+
 std::vector<GalleryScene> scenes_of(const GalleryOptions& options) {
   std::vector<GalleryScene> scenes;
   if (options.inputs.empty()) {
@@ -79,6 +96,7 @@ std::vector<GalleryScene> scenes_of(const GalleryOptions& options) {
       scenes.push_back({fs::path(input).stem().string(), "'" + input + "'", scene_input(input, options.set)});
     }
   }
+  name_files(scenes);
   return scenes;
 }
 
@@ -155,6 +173,10 @@ private:
 void run_gallery(const GalleryOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<GalleryScene> scenes = scenes_of(options);
+  for (const GalleryScene& scene : scenes) { // refuse a wrong name before the work
+    if (scene.input.scene.volume.file)
+      source_of(scene.input.scene.volume, scene.input.folders);
+  }
   std::error_code error;
   fs::create_directories(options.folder, error);
   if (error)

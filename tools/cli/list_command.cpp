@@ -74,7 +74,9 @@ void run_list(const ListOptions& options) {
     }
     names.push_back(name);
   }
-  throw UsageError("there is no list of '" + options.what + "'; give one of " + join(names));
+  const std::string problem =
+      options.what.empty() ? "list needs to know of what" : "there is no list of '" + options.what + "'";
+  throw UsageError(problem + "; give one of " + join(names));
 }
 
 } // namespace cli

@@ -119,7 +119,6 @@ void add_phantom(CLI::App& app, PhantomOptions& options, std::function<void()>& 
 void add_list(CLI::App& app, ListOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand("list", "what this program knows");
   command.add_option("what", options.what, "contexts, figures, keys, phantoms, pipelines, presets or warps")
-      ->required()
       ->type_name("");
   command.callback([&options, &run] { run = [&options] { run_list(options); }; });
 }
