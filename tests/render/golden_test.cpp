@@ -65,8 +65,8 @@ TEST_CASE("golden: bones of the head in diffuse light") {
 }
 TEST_CASE("golden: the engine in perspective") {
   check_golden("engine_perspective", R"({"volume":{"phantom":"engine","size":[64,64,32]},
-    "camera":{"azimuth":-30,"elevation":25,"projection":"perspective","view_angle":60},
-    "render":{"size":[96,96],"spacing":0.5}})");
+    "camera":{"azimuth":-30,"elevation":25,"projection":"perspective","view_angle":60,"zoom":1.6},
+    "transfer":{"unit_distance":0.4},"render":{"size":[96,96],"spacing":0.5}})");
 }
 TEST_CASE("golden: the brick, cut, front to back") {
   check_golden("brick",
