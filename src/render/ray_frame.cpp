@@ -16,9 +16,10 @@ RayFrameValues ray_frame(const PreparedScene& prepared) {
   frame.half_width = half_width(view);
   frame.half_height = view.half_height;
   frame.anchor = glm::length(view.eye - middle);
-  // Orthographic anchors lie on the plane through the box centre, so that sample distances stay small.
-  const glm::dvec3 anchor =
-      view.projection == Projection::perspective ? view.eye : view.eye + depth(view, middle) * view.forward;
+  // Orthographic anchors lie on the plane through the box centre, perspective ones on the sphere about the
+  // eye through it, so that sample distances stay small.
+  const double to_anchor = view.projection == Projection::perspective ? frame.anchor : depth(view, middle);
+  const glm::dvec3 anchor = view.eye + to_anchor * view.forward;
   frame.center = glm::dvec3(texture_from_world * glm::dvec4(anchor, 1));
   return frame;
 }
