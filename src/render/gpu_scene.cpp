@@ -95,7 +95,8 @@ gl::Texture upload_volume(const gl::Functions& gl, const PreparedScene& prepared
       progress);
 }
 
-/// A table is uploaded as floats; an 8-bit one has the 256 texels of the papers' hardware.
+/// Needs scene.value_from_texel. A table is uploaded as floats; an 8-bit one has the 256 texels of the
+/// papers' hardware.
 gl::Texture upload_transfer(const gl::Functions& gl, const PreparedScene& prepared, GpuScene& scene) {
   const bool eight_bit = prepared.scene.render.transfer_texture == TransferTexture::rgba8;
   const TransferTable table =
@@ -103,6 +104,8 @@ gl::Texture upload_transfer(const gl::Functions& gl, const PreparedScene& prepar
   const double count = static_cast<double>(texel_count(table));
   const double scale = (count - 1) / (count * (table.last - table.first));
   scene.transfer_from_value = glm::vec2(scale, 0.5 / count - scale * table.first);
+  const glm::dvec2 value(scene.value_from_texel);
+  scene.transfer_from_texel = glm::vec2(scale * value.x, 0.5 / count + scale * (value.y - table.first));
   scene.transfer_texels = texel_count(table);
   gl::TextureSpec spec;
   spec.format = eight_bit ? GL_RGBA8 : GL_RGBA32F;
