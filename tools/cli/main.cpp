@@ -3,6 +3,7 @@
 
 #include "console.h"
 #include "core/errors.h"
+#include "memory.h"
 #include "options.h"
 
 #include <CLI/CLI.hpp>
@@ -183,6 +184,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace slicelens;
+  keep_freed_memory();
   try {
     return cli::run_program(argc, argv);
   } catch (const UsageError& error) {
