@@ -19,6 +19,7 @@ struct BenchOptions {
   std::size_t edge = 256;            ///< voxels on an edge of the phantom of `fill` and `options`
   std::size_t picture = 512;         ///< pixels on an edge of the picture
   int runs = 9;                      ///< of each side
+  std::string only;                  ///< of `options`: variants whose name contains it
   std::string context = "auto";      ///< render.context
 };
 

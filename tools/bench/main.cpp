@@ -67,6 +67,8 @@ int main(int argc, char** argv) {
   app.add_option("--picture", options.picture, "pixels on an edge of the picture")
       ->check(CLI::Range(16, 4096));
   app.add_option("--runs", options.runs, "runs of each side")->check(CLI::Range(3, 1000));
+  app.add_option("--only", options.only, "of `options`: the variants whose name contains this")
+      ->type_name("TEXT");
   app.add_option("--context", options.context, "auto, osmesa, egl or window");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -146,6 +146,8 @@ void run_options(gl::Context& context, const BenchOptions& options) {
   print_heading(
       {"variant", "time / default's", "processor time / default's", "s", "10⁶ samples", "10⁶ samples/s"});
   for (const Variant& variant : variants()) {
+    if (variant.name.find(options.only) == std::string::npos)
+      continue;
     changed.scene = scene;
     variant.change(changed.scene);
     prepare_again(changed);
