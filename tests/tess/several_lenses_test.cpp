@@ -133,6 +133,10 @@ TEST_CASE("under perspective lenses that hide each other overlap where their dep
   far.center.z = 0.5;
   // In the picture at .15/1.8 = .083 against .115: .032 apart, radii .05/1.3 + .05/1.8 = .066: overlap.
   CHECK_FALSE(overlap(lenses()).empty());
+  // At .1/1.8 = .0556: .0598 apart. In the box the axes are .108 apart there, more than .05 + .05: radii grow
+  // with depth.
+  far.center.x = 0.6;
+  CHECK_FALSE(overlap(lenses()).empty());
   far.center.x = 0.53; // at .0167: .0987 apart
   CHECK(overlap(lenses()).empty());
 }
