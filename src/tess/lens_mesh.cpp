@@ -247,16 +247,17 @@ std::vector<Piece> lens_pieces(const Footprint& at) {
   return pieces;
 }
 
-} // namespace
-
-LensMesh tessellate_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
-                          const BoxSpace& space, const LensClip& clip_planes) {
-  LensMesh mesh;
-  if (polygon.size() < 3)
-    return mesh;
-  const LensPolygon whole = undisturbed(polygon);
-  std::vector<LensPolygon> normal = {whole};
+/// The slice with the footprints of the lenses that reach it taken out, and what fills those.
+struct Parts {
+  std::vector<LensPolygon> normal;
   std::vector<Piece> pieces;
+};
+
+template <class Fill>
+Parts part_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses, const BoxSpace& space,
+                 Fill fill) {
+  const LensPolygon whole = undisturbed(polygon);
+  Parts parts{{whole}, {}};
   for (const LensTessellation& lens : lenses) {
     const double z = glm::dot(box_from_texture(space, polygon[0]) - lens.map.center, lens.map.forward);
     const Footprint at{lens, space, lens_plane(lens.map, z), std::abs(z) <= lens.map.depth_inner};
@@ -265,7 +266,7 @@ LensMesh tessellate_slice(const Polygon& polygon, const std::vector<LensTessella
     if (!at.plane.touched || apart(whole, at, sides))
       continue;
     std::vector<LensPolygon> rest;
-    for (const LensPolygon& part : normal) {
+    for (const LensPolygon& part : parts.normal) {
       if (apart(part, at, sides)) {
         rest.push_back(part);
         continue;
@@ -273,25 +274,26 @@ LensMesh tessellate_slice(const Polygon& polygon, const std::vector<LensTessella
       for (LensPolygon& outer : outside(part, at))
         rest.push_back(std::move(outer));
     }
-    normal = std::move(rest);
-    for (Piece& piece : lens_pieces(at))
-      pieces.push_back(std::move(piece));
+    parts.normal = std::move(rest);
+    for (Piece& piece : fill(at))
+      parts.pieces.push_back(std::move(piece));
   }
-  const std::vector<TextureHalfSpace> faces = faces_of(glm::dvec3(0), glm::dvec3(1));
-  for (Piece& piece : pieces) {
-    for (const TextureHalfSpace& face : faces)
-      piece.polygon = clip(piece.polygon, face);
-  }
-  const bool shared = !pieces.empty();
-  for (LensPolygon& part : normal)
-    pieces.push_back({std::move(part), LensRegion::normal});
+  return parts;
+}
+
+/// Triangles of all parts, with shared corners and cut by the planes.
+LensMesh joined(Parts parts, const LensClip& clip_planes) {
+  const bool shared = !parts.pieces.empty();
+  for (LensPolygon& part : parts.normal)
+    parts.pieces.push_back({std::move(part), LensRegion::normal});
   if (shared) {
     std::vector<LensPolygon*> polygons;
-    for (Piece& piece : pieces)
+    for (Piece& piece : parts.pieces)
       polygons.push_back(&piece.polygon);
     share_corners(polygons);
   }
-  for (Piece& piece : pieces) {
+  LensMesh mesh;
+  for (Piece& piece : parts.pieces) {
     for (const Plane& plane : clip_planes.texture)
       piece.polygon = clip(piece.polygon, homogeneous(plane));
     for (const Plane& plane : clip_planes.object)
@@ -302,53 +304,38 @@ LensMesh tessellate_slice(const Polygon& polygon, const std::vector<LensTessella
   return mesh;
 }
 
+} // namespace
+
+LensMesh tessellate_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
+                          const BoxSpace& space, const LensClip& clip_planes) {
+  if (polygon.size() < 3)
+    return {};
+  Parts parts = part_slice(polygon, lenses, space, lens_pieces);
+  const std::vector<TextureHalfSpace> faces = faces_of(glm::dvec3(0), glm::dvec3(1));
+  for (Piece& piece : parts.pieces) {
+    for (const TextureHalfSpace& face : faces)
+      piece.polygon = clip(piece.polygon, face);
+  }
+  return joined(std::move(parts), clip_planes);
+}
+
 LensMesh cover_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
                      const BoxSpace& space, const std::vector<Plane>& object_clip) {
-  LensMesh mesh;
   if (polygon.size() < 3)
-    return mesh;
-  std::vector<LensPolygon> normal = {undisturbed(polygon)};
-  std::vector<Piece> pieces;
-  for (const LensTessellation& lens : lenses) {
-    LensTessellation square = lens;
-    square.bounded = true;
-    const double z = glm::dot(box_from_texture(space, polygon[0]) - lens.map.center, lens.map.forward);
-    const Footprint at{square, space, lens_plane(lens.map, z)};
-    if (!at.plane.touched)
-      continue;
-    std::vector<LensPolygon> rest;
-    for (const LensPolygon& part : normal) {
-      for (LensPolygon& outer : outside(part, at))
-        rest.push_back(std::move(outer));
-    }
-    normal = std::move(rest);
+    return {};
+  std::vector<LensTessellation> squares = lenses;
+  for (LensTessellation& lens : squares)
+    lens.bounded = true;
+  const auto whole_square = [](const Footprint& at) {
     Piece whole;
     whole.region = LensRegion::zoom;
     for (const glm::dvec2& corner :
          {glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(-1, -1)}) {
-      whole.polygon.push_back(at.still(lens.map.outer * corner));
+      whole.polygon.push_back(at.still(at.lens.map.outer * corner));
     }
-    pieces.push_back(std::move(whole));
-  }
-  std::vector<LensVertex> corners;
-  for (const Piece& piece : pieces)
-    corners.insert(corners.end(), piece.polygon.begin(), piece.polygon.end());
-  for (const LensPolygon& part : normal)
-    corners.insert(corners.end(), part.begin(), part.end());
-  for (LensPolygon& part : normal) {
-    if (!pieces.empty())
-      insert_shared_corners(part, corners);
-    pieces.push_back({std::move(part), LensRegion::normal});
-  }
-  for (Piece& piece : pieces) {
-    if (piece.region != LensRegion::normal)
-      insert_shared_corners(piece.polygon, corners);
-    for (const Plane& plane : object_clip)
-      piece.polygon = clip_position(piece.polygon, plane);
-    if (piece.polygon.size() >= 3)
-      append_fan(mesh, piece);
-  }
-  return mesh;
+    return std::vector<Piece>{whole};
+  };
+  return joined(part_slice(polygon, squares, space, whole_square), {{}, object_clip});
 }
 
 void refuse_overlap(const std::vector<LensTessellation>& lenses) {
