@@ -80,10 +80,7 @@ void run_render(const RenderOptions& options) {
   auto mark = std::chrono::steady_clock::now();
 
   OpenContext context;
-  if (input.scene.render.pipeline != Pipeline::reference) {
-    context.context.emplace(open_context_for(input.scene));
-    context.name = input.scene.render.context;
-  }
+  open_context(context, input.scene);
   const double open = seconds_since(mark);
   preload_codec();
   std::string sha256;
