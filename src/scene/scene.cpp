@@ -129,9 +129,9 @@ void validate(const Scene& scene) {
     throw UsageError("transfer.preset and transfer.points are both given; keep one");
   }
   validate_camera(scene.camera);
-  validate_render(scene.render);
   if (scene.render.pipeline == Pipeline::fixed_function)
     validate_fixed_function(scene.render);
+  validate_render(scene.render);
   if (scene.render.classification == Classification::pre)
     validate_pre_classification(scene.render, scene.camera);
   if (scene.light.direction && glm::length(*scene.light.direction) == 0) {
