@@ -6,6 +6,7 @@
 #include "lib/ray.glsl"
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
+#include "gpu/classified.glsl"
 #include "lib/gradient.glsl"
 #include "lib/shade.glsl"
 #include "gpu/warp.glsl"
@@ -32,6 +33,14 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #else
   vec3 t = p;
 #endif
+#if defined(CLASSIFICATION_PRE)
+  vec4 ready = classified_sample(t);
+#if defined(MODE_XRAY)
+  return gathered + vec4(ready.a * distance_ratio);
+#else
+  return under(gathered, ready);
+#endif
+#else
 #if defined(MODE_MIP)
   return vec4(max(gathered.x, displayed_value(t)), 0.0, 0.0, 1.0);
 #else
@@ -46,6 +55,7 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
   sample_color.a = corrected_opacity(sample_color.a, distance_ratio);
 #endif
   return under(gathered, associated(sample_color.rgb, sample_color.a));
+#endif
 #endif
 #endif
 }

@@ -2,13 +2,15 @@
 // opacity, for summing.
 //
 // CORRECT_CONSTANT corrects the opacity for one distance ratio; CORRECT_FRAGMENT for the distance along this
-// fragment's own ray (Brunet §3.1). WARP_TESSELLATED divides the homogeneous coordinate that the mesh carries;
+// fragment's own ray (Brunet §3.1). CLASSIFICATION_PRE reads colours that are
+// corrected already. WARP_TESSELLATED divides the homogeneous coordinate that the mesh carries;
 // WARP_FRAGMENT evaluates the lens here.
 
 #include "lib/opacity.glsl"
 #include "lib/composite.glsl"
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
+#include "gpu/classified.glsl"
 #include "lib/gradient.glsl"
 #include "lib/shade.glsl"
 #include "gpu/warp.glsl"
@@ -53,6 +55,17 @@ void main() {
 #else
   vec3 texture_coordinate = object_coordinate;
 #endif
+#if defined(CLASSIFICATION_PRE)
+  vec4 sample_color = classified_sample(texture_coordinate);
+#if defined(MODE_XRAY)
+#if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)
+  sample_color = vec4(sample_color.a * sample_ratio());
+#else
+  sample_color = vec4(sample_color.a);
+#endif
+#endif
+  result = sample_color;
+#else
 #if defined(MODE_MIP)
   float value = displayed_value(texture_coordinate);
   result = vec4(unit_from_value.x * value + unit_from_value.y, 0.0, 0.0, 1.0);
@@ -72,6 +85,7 @@ void main() {
   sample_color.a = corrected_opacity(sample_color.a, sample_ratio());
 #endif
   result = associated(sample_color.rgb, sample_color.a);
+#endif
 #endif
 #endif
 }

@@ -1,5 +1,8 @@
 #include "render/gpu_scene.h"
 
+#include "render/pre_classification.h"
+#include "scene/names.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -125,6 +128,12 @@ VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type) {
 GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Progress& progress) {
   const Volume& volume = prepared.volume;
   GpuScene scene;
+  if (prepared.scene.render.classification == Classification::pre) {
+    scene.volume = upload_classified(gl, prepared, progress);
+    scene.texture = "rgba8, classified";
+    scene.bytes = voxel_count(volume) * classified_voxel_bytes;
+    return scene;
+  }
   scene.format = chosen_texture(prepared.scene.render.volume_texture, volume.type);
   Coding coding;
   double levels = 1;
@@ -146,6 +155,7 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
     scene.volume = upload_volume<float>(gl, prepared, GL_R32F, coding, progress);
   }
   scene.value_from_texel = glm::vec2(coding.scale * levels, coding.offset);
+  scene.texture = word(scene.format);
   scene.transfer = upload_transfer(gl, prepared, scene);
   scene.bytes =
       voxel_count(volume) * texel_bytes +

@@ -1,5 +1,6 @@
 #include "render/reference.h"
 
+#include "render/pre_classification.h"
 #include "render/ray_frame.h"
 
 #include <tbb/parallel_for.h>
@@ -33,6 +34,7 @@ template <class T>
 struct Tracer : SharedFunctions {
   const PreparedScene& prepared;
   const T* voxels;
+  const std::byte* classified; ///< RGBA of 8 bits under classification `pre`, else null
   ivec3 dims;
   vec3 voxel;
   dmat3 world_from_gradient;
@@ -40,41 +42,59 @@ struct Tracer : SharedFunctions {
   Correction correction;
   real ratio;
 
-  explicit Tracer(const PreparedScene& scene)
+  Tracer(const PreparedScene& scene, const std::byte* classified_voxels)
       : prepared(scene), voxels(reinterpret_cast<const T*>(scene.volume.voxels.data())),
-        dims(scene.volume.dims[0], scene.volume.dims[1], scene.volume.dims[2]), voxel(1.0 / vec3(dims)),
+        classified(classified_voxels), dims(scene.volume.dims[0], scene.volume.dims[1], scene.volume.dims[2]),
+        voxel(1.0 / vec3(dims)),
         world_from_gradient(glm::transpose(glm::inverse(dmat3(scene.box.world_from_texture)))),
         nearest(scene.scene.render.filter == Filter::nearest), correction(correction_of(scene)),
         ratio(scene.scene.render.opacity_correction == OpacityCorrection::none ? 1
                                                                                : axis_distance_ratio(scene)) {
   }
 
+  std::size_t voxel_index(int i, int j, int k) const {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(dims.y) + static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(dims.x) +
+           static_cast<std::size_t>(i);
+  }
+
   real voxel_value(int i, int j, int k) const {
-    const auto index =
-        (static_cast<std::size_t>(k) * static_cast<std::size_t>(dims.y) + static_cast<std::size_t>(j)) *
-            static_cast<std::size_t>(dims.x) +
-        static_cast<std::size_t>(i);
-    const real value = static_cast<real>(voxels[index]);
+    const real value = static_cast<real>(voxels[voxel_index(i, j, k)]);
     if constexpr (std::is_floating_point_v<T>)
       return std::isfinite(value) ? value : prepared.volume.min;
     return value;
   }
 
-  /// The data value at p: trilinear between voxel centres (i+½)/N, clamped to the edge.
-  real displayed_value(vec3 p) const {
+  /// What `voxel_at` gives for voxels (i, j, k), at p: the nearest one, or trilinear between voxel centres
+  /// (i+½)/N, clamped to the edge.
+  template <class VoxelAt>
+  auto interpolated(vec3 p, const VoxelAt& voxel_at) const {
     const vec3 position = clamp(p * vec3(dims) - 0.5, vec3(0), vec3(dims) - 1.0);
     if (nearest) {
       const ivec3 n = min(ivec3(floor(clamp(p, vec3(0), vec3(1)) * vec3(dims))), dims - 1);
-      return voxel_value(n.x, n.y, n.z);
+      return voxel_at(n.x, n.y, n.z);
     }
     const ivec3 a = ivec3(floor(position));
     const ivec3 b = min(a + 1, dims - 1);
     const vec3 f = position - vec3(a);
-    const auto along_x = [&](int j, int k) {
-      return mix(voxel_value(a.x, j, k), voxel_value(b.x, j, k), f.x);
-    };
+    const auto along_x = [&](int j, int k) { return mix(voxel_at(a.x, j, k), voxel_at(b.x, j, k), f.x); };
     return mix(mix(along_x(a.y, a.z), along_x(b.y, a.z), f.y), mix(along_x(a.y, b.z), along_x(b.y, b.z), f.y),
                f.z);
+  }
+
+  /// The data value at p.
+  real displayed_value(vec3 p) const {
+    return interpolated(p, [&](int i, int j, int k) { return voxel_value(i, j, k); });
+  }
+
+  /// Classification `pre`: the associated colour at p, interpolated in double between the texture's 8 bits.
+  vec4 classified_sample(vec3 p) const {
+    return interpolated(p, [&](int i, int j, int k) {
+      const std::byte* texel = classified + classified_voxel_bytes * voxel_index(i, j, k);
+      return vec4(std::to_integer<int>(texel[0]), std::to_integer<int>(texel[1]),
+                  std::to_integer<int>(texel[2]), std::to_integer<int>(texel[3])) /
+             255.0;
+    });
   }
 
 #include "lib/gradient.glsl"
@@ -123,8 +143,12 @@ struct Tracer : SharedFunctions {
     const vec3 t = data_point(p);
     if (!prepared.lenses.empty() && !shows_data(t))
       return gathered;
-    const real value = displayed_value(t);
     const Mode mode = prepared.scene.render.mode;
+    if (classified != nullptr) {
+      const vec4 color = classified_sample(t);
+      return mode == Mode::xray ? gathered + vec4(color.w * ratio) : this->under(gathered, color);
+    }
+    const real value = displayed_value(t);
     if (mode == Mode::mip)
       return vec4(max(gathered.x, value), 0, 0, 1);
     const vec4 color = evaluate(prepared.transfer, value);
@@ -181,10 +205,14 @@ template <class T>
 void trace_all(const PreparedScene& prepared, Image& image, const Progress& progress) {
   const View& view = prepared.view;
   const SharedFunctions::RayFrame frame = shared_frame(prepared);
+  std::vector<std::byte> classified;
+  if (prepared.scene.render.classification == Classification::pre)
+    classified = classify_voxels(prepared);
+  const std::byte* colors = classified.empty() ? nullptr : classified.data();
   std::atomic<int> done = 0;
   std::mutex reporting;
   tbb::parallel_for(0, view.height, [&](int y) {
-    Tracer<T> tracer(prepared);
+    Tracer<T> tracer(prepared, colors);
     for (int x = 0; x < view.width; ++x) {
       const vec4 color = tracer.trace(frame, view.projection == Projection::perspective,
                                       2 * (x + 0.5) / view.width - 1, 1 - 2 * (y + 0.5) / view.height);

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "gl/timer.h"
+#include "render/fixed_function.h"
 #include "render/rays.h"
 #include "render/reference.h"
 #include "render/slices.h"
@@ -68,14 +69,18 @@ void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Pr
       gl::make_target(gl, prepared.view.width, prepared.view.height, format_of(settings.target));
   gl::finish(gl);
   result.times.upload = watch.lap();
-  if (draws_slices(settings.pipeline)) {
-    SliceRenderer renderer(gl, prepared);
+  const auto draw_slices = [&](auto renderer) {
     result.times.compile = watch.lap();
     renderer.slice(prepared);
     result.times.slice = watch.lap();
     result.times.gpu_draw = timed_draw(gl, [&] { renderer.draw(prepared, scene, target, progress); });
     result.slices = renderer.slice_count();
     result.triangles = renderer.triangle_count();
+  };
+  if (settings.pipeline == Pipeline::fixed_function) {
+    draw_slices(FixedFunctionRenderer(context));
+  } else if (draws_slices(settings.pipeline)) {
+    draw_slices(SliceRenderer(gl, prepared));
   } else {
     RayRenderer renderer(gl, prepared);
     result.times.compile = watch.lap();
@@ -89,24 +94,40 @@ void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Pr
   result.version = context.info().version;
   result.context = context.info().kind;
   result.limits = limits_text(context.info().limits);
-  result.texture = word(scene.format);
+  result.texture = scene.texture;
   result.texture_bytes = scene.bytes;
 }
 
 } // namespace
 
+gl::Profile profile_of(Pipeline pipeline) {
+  return pipeline == Pipeline::fixed_function ? gl::Profile::compatibility : gl::Profile::core;
+}
+
 gl::Context open_context_for(const Scene& scene) {
+  const gl::Profile profile = profile_of(scene.render.pipeline);
+  gl::ContextKind kind = gl::ContextKind::automatic;
   switch (scene.render.context) {
   case ContextName::osmesa:
-    return gl::open_context(gl::ContextKind::osmesa);
+    kind = gl::ContextKind::osmesa;
+    break;
   case ContextName::egl:
-    return gl::open_context(gl::ContextKind::egl);
+    kind = gl::ContextKind::egl;
+    break;
   case ContextName::window:
-    return gl::open_context(gl::ContextKind::window);
+    kind = gl::ContextKind::window;
+    break;
   case ContextName::automatic:
     break;
   }
-  return gl::open_context(gl::ContextKind::automatic);
+  try {
+    return gl::open_context(kind, profile);
+  } catch (const GraphicsError& error) {
+    if (profile == gl::Profile::core)
+      throw;
+    throw GraphicsError("pipeline '" + word(scene.render.pipeline) +
+                        "' needs a context of the compatibility profile: " + error.what());
+  }
 }
 
 RenderResult render(const PreparedScene& prepared, gl::Context* context, const Progress& progress) {

@@ -28,17 +28,20 @@ struct RenderResult {
   std::string version;  ///< GL_VERSION, empty for the reference
   std::string limits;   ///< what the driver allows, one line; empty for the reference
   std::string context;  ///< kind of context
-  std::string texture;  ///< what holds the volume: "r16", empty for the reference
+  std::string texture;  ///< what holds the volume: "r16", "rgba8, classified", empty for the reference
   std::size_t texture_bytes = 0;
   std::size_t slices = 0;    ///< drawn, 0 for rays and reference
   std::size_t triangles = 0; ///< of all slices
 };
 
-/// The context that a scene asks for. Throws GraphicsError.
+/// `compatibility` for pipeline `fixed-function`, which cannot be drawn in a core context.
+gl::Profile profile_of(Pipeline pipeline);
+
+/// The context that a scene asks for, of the profile that its pipeline needs. Throws GraphicsError.
 gl::Context open_context_for(const Scene& scene);
 
-/// Renders. `context` may be null for the reference, and must be current otherwise.
-/// Throws UsageError, GraphicsError or LimitError.
+/// Renders. `context` may be null for the reference, and must be current and of the pipeline's profile
+/// otherwise. Throws UsageError, GraphicsError or LimitError.
 RenderResult render(const PreparedScene& prepared, gl::Context* context, const Progress& progress);
 
 /// Puts associated `image` over a straight background colour, in place.

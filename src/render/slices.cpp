@@ -14,17 +14,6 @@ namespace slicelens {
 
 namespace {
 
-/// Depth is not used; near and far need only hold the box.
-glm::dmat4 clip_from_texture(const PreparedScene& prepared) {
-  const double middle = depth(prepared.view, center(prepared.box));
-  const double radius = bounding_radius(prepared.box);
-  double near = middle - 1.01 * radius;
-  const double far = std::max(middle + 1.01 * radius, near + radius);
-  if (prepared.view.projection == Projection::perspective)
-    near = std::max(near, 1e-6 * far);
-  return clip_from_world(prepared.view, near, far) * prepared.box.world_from_texture;
-}
-
 /// Maps of the value to [0,1] and back, for targets that hold no more.
 glm::vec2 unit_from_value(const Volume& volume) {
   const double range = volume.max > volume.min ? volume.max - volume.min : 1;

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "slicing/slice_stack.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace slicelens {
@@ -54,6 +55,17 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
     }
   }
   return geometry;
+}
+
+glm::dmat4 clip_from_texture(const PreparedScene& prepared) {
+  // Depth is not used; near and far need only hold the box.
+  const double middle = depth(prepared.view, center(prepared.box));
+  const double radius = bounding_radius(prepared.box);
+  double near = middle - 1.01 * radius;
+  const double far = std::max(middle + 1.01 * radius, near + radius);
+  if (prepared.view.projection == Projection::perspective)
+    near = std::max(near, 1e-6 * far);
+  return clip_from_world(prepared.view, near, far) * prepared.box.world_from_texture;
 }
 
 } // namespace slicelens

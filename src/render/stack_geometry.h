@@ -25,4 +25,7 @@ struct StackGeometry {
 /// evaluated at each fragment. Throws UsageError for a spacing that is too fine.
 StackGeometry make_stack_geometry(const PreparedScene& prepared);
 
+/// Where the corners land: OpenGL clip coordinates of texture coordinates of the displayed volume.
+glm::dmat4 clip_from_texture(const PreparedScene& prepared);
+
 } // namespace slicelens

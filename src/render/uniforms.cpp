@@ -7,6 +7,8 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
   std::vector<std::string> macros;
   if (render.filter == Filter::linear_exact)
     macros.emplace_back("FILTER_LINEAR_EXACT");
+  if (render.classification == Classification::pre)
+    macros.emplace_back("CLASSIFICATION_PRE");
   switch (render.mode) {
   case Mode::dvr:
     macros.emplace_back("MODE_DVR");

@@ -55,8 +55,8 @@ void camera_keys(Visitor& visit, Settings& s) {
 template <class Visitor, class Settings>
 void render_keys(Visitor& visit, Settings& s) {
   visit.key("pipeline", s.pipeline,
-            "where the map is evaluated: slices (no warp), tessellated (per vertex), fragment, rays (GPU), "
-            "or reference (CPU, double)");
+            "where the map is evaluated: slices (no warp), tessellated (per vertex), fragment, "
+            "fixed-function (per vertex, without shaders), rays (GPU), or reference (CPU, double)");
   visit.key("mode", s.mode,
             "dvr (emission and absorption), mip (maximum) or xray (line integral of the opacity)");
   visit.key("xray_scale", s.xray_scale,
@@ -69,6 +69,9 @@ void render_keys(Visitor& visit, Settings& s) {
             "fragment (for the distance along each ray), frame (for the slice distance only) or none");
   visit.key("shading", s.shading, "none or diffuse");
   visit.key("gradient", s.gradient, "forward or central differences, for shading");
+  visit.key("classification", s.classification,
+            "post (interpolate values, then classify) or pre (classify voxels into 8-bit associated colours, "
+            "then interpolate those)");
   visit.key("filter", s.filter,
             "nearest, linear (the driver's) or linear-exact (float weights in the shader)");
   visit.key("target", s.target, "what slices blend into: rgba8, rgba16f or rgba32f");

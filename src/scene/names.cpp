@@ -9,11 +9,10 @@ const std::vector<EnumName<ProjectionName>>& names_of(ProjectionName) {
 }
 
 const std::vector<EnumName<Pipeline>>& names_of(Pipeline) {
-  static const std::vector<EnumName<Pipeline>> names = {{Pipeline::slices, "slices"},
-                                                        {Pipeline::tessellated, "tessellated"},
-                                                        {Pipeline::fragment, "fragment"},
-                                                        {Pipeline::rays, "rays"},
-                                                        {Pipeline::reference, "reference"}};
+  static const std::vector<EnumName<Pipeline>> names = {
+      {Pipeline::slices, "slices"},     {Pipeline::tessellated, "tessellated"},
+      {Pipeline::fragment, "fragment"}, {Pipeline::fixed_function, "fixed-function"},
+      {Pipeline::rays, "rays"},         {Pipeline::reference, "reference"}};
   return names;
 }
 
@@ -45,6 +44,12 @@ const std::vector<EnumName<Shading>>& names_of(Shading) {
 const std::vector<EnumName<Gradient>>& names_of(Gradient) {
   static const std::vector<EnumName<Gradient>> names = {{Gradient::forward, "forward"},
                                                         {Gradient::central, "central"}};
+  return names;
+}
+
+const std::vector<EnumName<Classification>>& names_of(Classification) {
+  static const std::vector<EnumName<Classification>> names = {{Classification::post, "post"},
+                                                              {Classification::pre, "pre"}};
   return names;
 }
 

@@ -61,10 +61,66 @@ void validate_render(const RenderSettings& render) {
   }
 }
 
+/// Voxels that are classified once cannot be corrected, lit or compared later (METHODS §0).
+void validate_pre_classification(const RenderSettings& render, const CameraSettings& camera) {
+  if (render.mode == Mode::mip) {
+    throw UsageError("render.classification 'pre' holds colours, of which mode 'mip' cannot take the largest "
+                     "value; set render.classification to post");
+  }
+  if (render.shading != Shading::none) {
+    throw UsageError("render.classification 'pre' holds colours, which have no gradient to shade with; set "
+                     "render.shading to none or render.classification to post");
+  }
+  if (render.opacity_correction == OpacityCorrection::fragment && draws_slices(render.pipeline) &&
+      camera.projection == ProjectionName::perspective) {
+    throw UsageError("render.classification 'pre' bakes one opacity correction into the texture, so under "
+                     "camera.projection perspective render.opacity_correction cannot be fragment; set it to "
+                     "frame or none");
+  }
+  if (render.volume_texture != VolumeTexture::automatic) {
+    throw UsageError("render.volume_texture is for classification 'post'; 'pre' holds the volume as 8-bit "
+                     "colours: remove the key or set it to auto");
+  }
+  if (render.transfer_texture != TransferTexture::rgba32f) {
+    throw UsageError("render.transfer_texture is for classification 'post'; 'pre' applies the transfer "
+                     "function without a texture: remove the key or set it to rgba32f");
+  }
+}
+
+/// What hardware without shaders could do (LaMar 2001).
+void validate_fixed_function(const RenderSettings& render) {
+  const auto refuse = [](const std::string& problem, const std::string& key, const std::string& value) {
+    throw UsageError("pipeline 'fixed-function' " + problem + "; set " + key + " to " + value);
+  };
+  if (render.classification != Classification::pre)
+    refuse("cannot classify samples, it needs colours in the texture", "render.classification", "pre");
+  if (render.mode != Mode::dvr)
+    refuse("draws mode 'dvr' only", "render.mode", "dvr");
+  if (render.shading != Shading::none)
+    refuse("has colours in its texture and nothing to shade with", "render.shading", "none");
+  if (render.target != Target::rgba8)
+    refuse("blends into the papers' 8 bits", "render.target", "rgba8");
+  if (render.filter == Filter::linear_exact)
+    refuse("has no filter 'linear-exact', which is a shader's", "render.filter", "linear or nearest");
+}
+
 } // namespace
 
 bool draws_slices(Pipeline pipeline) {
-  return pipeline == Pipeline::slices || pipeline == Pipeline::tessellated || pipeline == Pipeline::fragment;
+  return pipeline == Pipeline::slices || pipeline == Pipeline::tessellated ||
+         pipeline == Pipeline::fragment || pipeline == Pipeline::fixed_function;
+}
+
+void use_pipeline_defaults(RenderSettings& render, bool classification_given, bool target_given,
+                           bool correction_given) {
+  if (render.pipeline != Pipeline::fixed_function)
+    return;
+  if (!classification_given)
+    render.classification = Classification::pre;
+  if (!target_given)
+    render.target = Target::rgba8;
+  if (!correction_given)
+    render.opacity_correction = OpacityCorrection::frame;
 }
 
 void validate(const Scene& scene) {
@@ -73,7 +129,11 @@ void validate(const Scene& scene) {
     throw UsageError("transfer.preset and transfer.points are both given; keep one");
   }
   validate_camera(scene.camera);
+  if (scene.render.pipeline == Pipeline::fixed_function)
+    validate_fixed_function(scene.render);
   validate_render(scene.render);
+  if (scene.render.classification == Classification::pre)
+    validate_pre_classification(scene.render, scene.camera);
   if (scene.light.direction && glm::length(*scene.light.direction) == 0) {
     throw UsageError("light.direction is the zero vector; give a direction");
   }
@@ -81,7 +141,7 @@ void validate(const Scene& scene) {
     validate(warp);
     if (scene.render.pipeline == Pipeline::slices) {
       throw UsageError("pipeline 'slices' draws no warp; '" + kind_of(warp) +
-                       "' can be drawn by tessellated, fragment, rays or reference");
+                       "' can be drawn by tessellated, fragment, fixed-function, rays or reference");
     }
   }
   for (const ClipSettings& plane : scene.clip) {

@@ -50,12 +50,14 @@ struct CameraSettings {
   std::optional<double> parallel_scale = std::nullopt;
 };
 
-enum class Pipeline { slices, tessellated, fragment, rays, reference };
+enum class Pipeline { slices, tessellated, fragment, fixed_function, rays, reference };
 enum class Mode { dvr, mip, xray };
 enum class Order { back_to_front, front_to_back };
 enum class OpacityCorrection { fragment, frame, none };
 enum class Shading { none, diffuse };
 enum class Gradient { forward, central };
+/// `pre`: voxels become colours of 8 bits before they are interpolated.
+enum class Classification { post, pre };
 enum class Filter { nearest, linear, linear_exact };
 enum class Target { rgba8, rgba16f, rgba32f };
 enum class VolumeTexture { automatic, r8, r16, r32f };
@@ -73,6 +75,7 @@ struct RenderSettings {
   OpacityCorrection opacity_correction = OpacityCorrection::fragment;
   Shading shading = Shading::none;
   Gradient gradient = Gradient::central;
+  Classification classification = Classification::post;
   Filter filter = Filter::linear;
   Target target = Target::rgba32f;
   VolumeTexture volume_texture = VolumeTexture::automatic;
@@ -113,6 +116,11 @@ struct Scene {
 
 /// Whether a pipeline blends slices (and not rays).
 bool draws_slices(Pipeline pipeline);
+
+/// Defaults that the pipeline decides, for keys that were not given: `fixed-function` takes classification
+/// pre, target rgba8 and opacity correction frame.
+void use_pipeline_defaults(RenderSettings& render, bool classification_given, bool target_given,
+                           bool correction_given);
 
 /// Checks what single keys cannot say: alternatives given together, combinations that make no sense.
 /// Throws UsageError naming the keys.

@@ -490,6 +490,9 @@ Scene scene_from_json(const std::string& text, const std::string& source,
       scene.volume.phantom = "head";
     if (!scene.warp.empty() && !has_value(json, "render", "pipeline"))
       scene.render.pipeline = Pipeline::tessellated;
+    use_pipeline_defaults(scene.render, has_value(json, "render", "classification"),
+                          has_value(json, "render", "target"),
+                          has_value(json, "render", "opacity_correction"));
     validate(scene);
   } catch (const UsageError& error) {
     throw UsageError(source + ": " + error.what());

@@ -16,7 +16,7 @@ const std::vector<WarpInfo>& warp_infos() {
   static const std::vector<WarpInfo> infos = {
       {"lamar",
        "magnification lens with tessellated borders (LaMar, Hamann and Joy 2001)",
-       {"tessellated", "fragment", "rays", "reference"}},
+       {"tessellated", "fragment", "fixed-function", "rays", "reference"}},
   };
   return infos;
 }

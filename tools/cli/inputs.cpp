@@ -109,14 +109,22 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
   return prepare(input.scene, std::move(volume), std::move(transfer));
 }
 
+void open_context(OpenContext& context, const Scene& scene) {
+  if (scene.render.pipeline == Pipeline::reference)
+    return;
+  const gl::Profile profile = profile_of(scene.render.pipeline);
+  if (context.context && context.name == scene.render.context && context.profile == profile)
+    return;
+  context.context.reset();
+  context.context.emplace(open_context_for(scene));
+  context.name = scene.render.context;
+  context.profile = profile;
+}
+
 RenderResult render_with(OpenContext& context, const PreparedScene& prepared, const Progress& progress) {
   if (prepared.scene.render.pipeline == Pipeline::reference)
     return render(prepared, nullptr, progress);
-  if (!context.context || context.name != prepared.scene.render.context) {
-    context.context.reset();
-    context.context.emplace(open_context_for(prepared.scene));
-    context.name = prepared.scene.render.context;
-  }
+  open_context(context, prepared.scene);
   return render(prepared, &*context.context, progress);
 }
 

@@ -46,12 +46,17 @@ std::future<std::string> start_hash(const SceneInput& input);
 PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256 = nullptr,
                    std::future<std::string> hashing = {});
 
-/// Opens the context that the scene asks for, where it needs one, and renders. `context` keeps it open for
-/// the next scene that asks for the same kind.
+/// A context that is kept for the next scene that asks for the same kind and profile.
 struct OpenContext {
   std::optional<gl::Context> context;
   ContextName name = ContextName::automatic;
+  gl::Profile profile = gl::Profile::core;
 };
+
+/// Opens the context that the scene asks for, where it needs one that is not open.
+void open_context(OpenContext& context, const Scene& scene);
+
+/// The same, and renders.
 RenderResult render_with(OpenContext& context, const PreparedScene& prepared, const Progress& progress);
 
 /// Stores scene, version, driver and hash with the picture.

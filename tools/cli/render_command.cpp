@@ -91,10 +91,7 @@ void run_render(const RenderOptions& options) {
   auto mark = std::chrono::steady_clock::now();
 
   OpenContext context;
-  if (input.scene.render.pipeline != Pipeline::reference) {
-    context.context.emplace(open_context_for(input.scene));
-    context.name = input.scene.render.context;
-  }
+  open_context(context, input.scene);
   const double open = seconds_since(mark);
   // No thread starts and no other library opens while the codec's libraries are being loaded, so whatever is
   // to run beside that must be there before.
