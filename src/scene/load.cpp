@@ -23,6 +23,8 @@ fs::path resolve_file(const std::string& file, const std::vector<fs::path>& fold
       return candidate;
     looked += (looked.empty() ? "" : " or ") + (folder.empty() ? std::string(".") : folder.string());
   }
+  if (folders.size() == 1)
+    throw FileError(file, "there is no such file or folder; check the name");
   throw FileError(file, "not found in " + looked + "; give another path with --set volume.file=…");
 }
 
