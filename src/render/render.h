@@ -34,6 +34,9 @@ struct RenderResult {
   std::size_t triangles = 0; ///< of all slices
 };
 
+/// The internal format that `render.target` names.
+GLenum texture_format(Target target);
+
 /// The context that a scene asks for. Throws GraphicsError.
 gl::Context open_context_for(const Scene& scene);
 
