@@ -43,7 +43,7 @@ glm::dvec3 ground(const glm::dvec2& p, double longer) {
 void star(glm::dvec3& color, const glm::dvec2& d, double radius) {
   const double r = glm::length(d);
   const double turn = std::atan2(d.y, d.x) / (2 * pi);
-  constexpr double spokes = 72;
+  constexpr double spokes = 36;
   // Spokes thinner than two pixels fade to their mean.
   const double contrast = std::clamp(2 * pi * r / spokes - 0.8, 0.0, 1.0);
   const double wave = std::clamp(0.5 + 2 * std::sin(2 * pi * spokes * turn), 0.0, 1.0);

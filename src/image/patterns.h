@@ -10,7 +10,7 @@ namespace slicelens {
 /// the square that its centre lies in. Sizes and squares must be positive; LimitError as make_image.
 Image checkerboard(int width, int height, int squares);
 
-/// A colour picture with detail of all sizes: a hue wheel with 72 spokes (Siemens star) in the middle, a zone
+/// A colour picture with detail of all sizes: a hue wheel with 36 spokes (Siemens star) in the middle, a zone
 /// plate in the top left quarter, gratings of 16 to 2 pixels at the top right, rows of discs that shrink to one
 /// pixel at the bottom left, lettering at the bottom right, and a fine grid over a smooth colour gradient behind
 /// them. Opaque, values in [0,1].
