@@ -72,11 +72,17 @@ function(slicelens_register_tests name)
   catch_discover_tests(test_${name} TEST_PREFIX "${ARG_PREFIX}: " TEST_SPEC ${ARG_SPEC} PROPERTIES ${properties})
 endfunction()
 
+# What `tools/test --all` builds with sanitizers: the programs that open no context.
+add_custom_target(tests_without_gl)
+
 # slicelens_test(volume SOURCES a_test.cpp … LINKS slicelens::volume … LABELS slow … ENVIRONMENT A=1 …)
 function(slicelens_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS;ENVIRONMENT" ${ARGN})
   slicelens_test_program(${name} SOURCES ${ARG_SOURCES} LINKS ${ARG_LINKS})
   slicelens_register_tests(${name} PREFIX ${name} LABELS ${ARG_LABELS} ENVIRONMENT ${ARG_ENVIRONMENT})
+  if(NOT "gl" IN_LIST ARG_LABELS)
+    add_dependencies(tests_without_gl test_${name})
+  endif()
 endfunction()
 
 # slicelens_gl_test(render SOURCES a_test.cpp … LINKS slicelens::render …)

@@ -32,11 +32,10 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #else
   vec3 t = p;
 #endif
-  float value = displayed_value(t);
 #if defined(MODE_MIP)
-  return vec4(max(gathered.x, value), 0.0, 0.0, 1.0);
+  return vec4(max(gathered.x, displayed_value(t)), 0.0, 0.0, 1.0);
 #else
-  vec4 sample_color = classify(value);
+  vec4 sample_color = classify_texel(displayed_texel(t));
 #if defined(MODE_XRAY)
   return gathered + vec4(sample_color.a * distance_ratio);
 #else

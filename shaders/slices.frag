@@ -53,11 +53,11 @@ void main() {
 #else
   vec3 texture_coordinate = object_coordinate;
 #endif
-  float value = displayed_value(texture_coordinate);
 #if defined(MODE_MIP)
+  float value = displayed_value(texture_coordinate);
   result = vec4(unit_from_value.x * value + unit_from_value.y, 0.0, 0.0, 1.0);
 #else
-  vec4 sample_color = classify(value);
+  vec4 sample_color = classify_texel(displayed_texel(texture_coordinate));
 #if defined(MODE_XRAY)
 #if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)
   result = vec4(sample_color.a * sample_ratio());

@@ -10,7 +10,8 @@ uniform vec2 value_from_texel;  // data value = x · texel + y
 float texel_at(ivec3 i, ivec3 last) { return texelFetch(volume_texture, clamp(i, ivec3(0), last), 0).r; }
 #endif
 
-float sample_volume(vec3 t) {
+// What the texture holds at t: values in its own unit, which filtering leaves alone.
+float sample_texel(vec3 t) {
 #ifdef FILTER_LINEAR_EXACT
   ivec3 size = textureSize(volume_texture, 0);
   vec3 position = clamp(t * vec3(size) - 0.5, vec3(-0.5), vec3(size) - 0.5);
@@ -22,12 +23,13 @@ float sample_volume(vec3 t) {
   float v10 = mix(texel_at(i + ivec3(0, 1, 0), last), texel_at(i + ivec3(1, 1, 0), last), f.x);
   float v01 = mix(texel_at(i + ivec3(0, 0, 1), last), texel_at(i + ivec3(1, 0, 1), last), f.x);
   float v11 = mix(texel_at(i + ivec3(0, 1, 1), last), texel_at(i + ivec3(1, 1, 1), last), f.x);
-  float texel = mix(mix(v00, v10, f.y), mix(v01, v11, f.y), f.z);
+  return mix(mix(v00, v10, f.y), mix(v01, v11, f.y), f.z);
 #else
-  float texel = texture(volume_texture, t).r;
+  return texture(volume_texture, t).r;
 #endif
-  return value_from_texel.x * texel + value_from_texel.y;
 }
 
-// For lib/gradient.glsl: gradients are taken in the data and carried through a lens by its Jacobian (gpu/warp.glsl).
-float displayed_value(vec3 t) { return sample_volume(t); }
+// The data at a point, as texel and as value. Gradients (lib/gradient.glsl) are taken in the data and carried through a
+// lens by its Jacobian (gpu/warp.glsl), so points are the data's own here.
+float displayed_texel(vec3 t) { return sample_texel(t); }
+float displayed_value(vec3 t) { return value_from_texel.x * displayed_texel(t) + value_from_texel.y; }

@@ -22,8 +22,9 @@ namespace {
 
 const CodecFunctions* load_codec() {
   const fs::path file = find_module("slicelens_codec");
+  // Lazy, because binding every function of 261 libraries takes a seventh more of their loading time.
   // Never closed: the libraries behind it leave threads and exit handlers that need their code.
-  void* module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* module = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (module == nullptr)
     throw FileError(file.string(), std::string("cannot be loaded: ") + ::dlerror());
   const auto entry = reinterpret_cast<CodecEntry>(::dlsym(module, codec_entry_name));
@@ -127,5 +128,7 @@ std::map<std::string, std::string> read_metadata(const fs::path& path) {
 }
 
 void preload_codec() { codec_loading(); }
+
+void await_codec() { codec_loading().wait(); }
 
 } // namespace slicelens

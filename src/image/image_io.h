@@ -49,7 +49,12 @@ std::map<std::string, std::string> read_metadata(const std::filesystem::path& pa
 /// Starts loading the codec on a thread of its own, so that it overlaps other work (reading a volume,
 /// drawing). May be called any number of times, from any thread; an error is kept for the first read or
 /// write, and the thread is joined at the latest when the program ends. Loading holds the dynamic linker's
-/// lock, so other dlopen calls wait for it: call this after the graphics context is open.
+/// lock, so that other dlopen calls and starts of threads wait for it: call this after the graphics context
+/// is open and the threads are running.
 void preload_codec();
+
+/// Waits until that loading has ended, well or badly. The first draw of a software driver looks up symbols
+/// and would wait for it anyway; waiting here keeps the time out of the measure of drawing.
+void await_codec();
 
 } // namespace slicelens

@@ -1,8 +1,11 @@
 #include "render/gpu_scene.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 
@@ -28,25 +31,46 @@ Coding coding_of(const Volume& volume) {
   return {range > 0 ? range / levels : 1, volume.min};
 }
 
-/// Converts scalars [first, first + count) to texels.
+/// The nearest code to a value ≥ 0. Not std::lround: a call per voxel made this most of an upload's time.
+template <class Texel>
+Texel nearest_code(double code) {
+  return static_cast<Texel>(static_cast<std::int32_t>(code + 0.5));
+}
+
+/// Converts `count` scalars to texels.
+template <class T, class Texel>
+void encode_run(const T* in, Texel* out, std::size_t count, const Coding& coding, double smallest) {
+  const double inverse = 1 / coding.scale;
+  if constexpr (std::is_floating_point_v<Texel>) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = static_cast<double>(in[i]);
+      out[i] = static_cast<Texel>((std::isfinite(value) ? value : smallest) - coding.offset);
+    }
+  } else if constexpr (std::is_floating_point_v<T>) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = static_cast<double>(in[i]);
+      out[i] = nearest_code<Texel>(((std::isfinite(value) ? value : smallest) - coding.offset) * inverse);
+    }
+  } else if (sizeof(T) <= 4 && coding.scale == 1) {
+    // The difference fits the texel, so it may be taken modulo its range.
+    const auto low = static_cast<Texel>(static_cast<std::int64_t>(coding.offset));
+    for (std::size_t i = 0; i < count; ++i)
+      out[i] = static_cast<Texel>(static_cast<Texel>(in[i]) - low);
+  } else {
+    for (std::size_t i = 0; i < count; ++i)
+      out[i] = nearest_code<Texel>((static_cast<double>(in[i]) - coding.offset) * inverse);
+  }
+}
+
+/// Converts the scalars from number `first` on to the texels of a slab, on all cores.
 template <class T, class Texel>
 void encode(const Volume& volume, const Coding& coding, std::size_t first, std::span<std::byte> slab) {
   const T* in = reinterpret_cast<const T*>(volume.voxels.data()) + first;
   Texel* out = reinterpret_cast<Texel*>(slab.data());
-  const std::size_t count = slab.size() / sizeof(Texel);
-  const double inverse = 1 / coding.scale;
-  for (std::size_t i = 0; i < count; ++i) {
-    if constexpr (std::is_floating_point_v<Texel>) {
-      const double value = static_cast<double>(in[i]);
-      out[i] = static_cast<Texel>((std::isfinite(value) ? value : volume.min) - coding.offset);
-    } else if constexpr (std::is_integral_v<T>) {
-      out[i] = static_cast<Texel>(std::lround((static_cast<double>(in[i]) - coding.offset) * inverse));
-    } else {
-      const double value = static_cast<double>(in[i]);
-      out[i] = static_cast<Texel>(
-          std::lround(((std::isfinite(value) ? value : volume.min) - coding.offset) * inverse));
-    }
-  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, slab.size() / sizeof(Texel), std::size_t{1} << 18),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      encode_run(in + range.begin(), out + range.begin(), range.size(), coding, volume.min);
+                    });
 }
 
 template <class Texel>
@@ -71,7 +95,8 @@ gl::Texture upload_volume(const gl::Functions& gl, const PreparedScene& prepared
       progress);
 }
 
-/// A table is uploaded as floats; an 8-bit one has the 256 texels of the papers' hardware.
+/// Needs scene.value_from_texel. A table is uploaded as floats; an 8-bit one has the 256 texels of the
+/// papers' hardware.
 gl::Texture upload_transfer(const gl::Functions& gl, const PreparedScene& prepared, GpuScene& scene) {
   const bool eight_bit = prepared.scene.render.transfer_texture == TransferTexture::rgba8;
   const TransferTable table =
@@ -79,6 +104,8 @@ gl::Texture upload_transfer(const gl::Functions& gl, const PreparedScene& prepar
   const double count = static_cast<double>(texel_count(table));
   const double scale = (count - 1) / (count * (table.last - table.first));
   scene.transfer_from_value = glm::vec2(scale, 0.5 / count - scale * table.first);
+  const glm::dvec2 value(scene.value_from_texel);
+  scene.transfer_from_texel = glm::vec2(scale * value.x, 0.5 / count + scale * (value.y - table.first));
   scene.transfer_texels = texel_count(table);
   gl::TextureSpec spec;
   spec.format = eight_bit ? GL_RGBA8 : GL_RGBA32F;

@@ -12,6 +12,7 @@ struct GpuScene {
   gl::Texture transfer;                       ///< 1D, straight RGBA
   glm::vec2 value_from_texel{1, 0};           ///< data value = x · texel + y
   glm::vec2 transfer_from_value{1, 0};        ///< table coordinate = x · value + y
+  glm::vec2 transfer_from_texel{1, 0};        ///< table coordinate = x · texel + y
   VolumeTexture format = VolumeTexture::r32f; ///< what `automatic` became
   std::size_t bytes = 0;                      ///< of both textures
   std::size_t transfer_texels = 0;

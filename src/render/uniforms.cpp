@@ -105,6 +105,7 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
   set_uniform(gl, program, "transfer_texture", 1);
   set_uniform(gl, program, "value_from_texel", scene.value_from_texel);
   set_uniform(gl, program, "transfer_from_value", scene.transfer_from_value);
+  set_uniform(gl, program, "transfer_from_texel", scene.transfer_from_texel);
   set_uniform(gl, program, "voxel",
               glm::vec3(1.0 / glm::dvec3(volume.dims[0], volume.dims[1], volume.dims[2])));
   const glm::dmat3 world_from_texture(prepared.box.world_from_texture);

@@ -22,6 +22,11 @@ LensVertex between(const LensVertex& a, const LensVertex& b, double va, double v
 
 LensPolygon clip_by(const LensPolygon& polygon, const std::function<double(const LensVertex&)>& value) {
   LensPolygon result;
+  // A cut through a corner gives that corner again.
+  const auto append = [&](const LensVertex& vertex) {
+    if (result.empty() || vertex.position != result.back().position)
+      result.push_back(vertex);
+  };
   bool all_inside = true;
   std::vector<double> values;
   values.reserve(polygon.size());
@@ -34,10 +39,12 @@ LensPolygon clip_by(const LensPolygon& polygon, const std::function<double(const
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const std::size_t next = (i + 1) % polygon.size();
     if (values[i] >= 0)
-      result.push_back(polygon[i]);
+      append(polygon[i]);
     if ((values[i] >= 0) != (values[next] >= 0))
-      result.push_back(between(polygon[i], polygon[next], values[i], values[next]));
+      append(between(polygon[i], polygon[next], values[i], values[next]));
   }
+  while (result.size() > 1 && result.front().position == result.back().position)
+    result.pop_back();
   return result.size() < 3 ? LensPolygon{} : result;
 }
 

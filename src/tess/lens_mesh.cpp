@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "tess/homogeneous.h"
+#include "tess/shared_corners.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,7 @@ struct Footprint {
   const LensTessellation& lens;
   const BoxSpace& space;
   LensPlane plane;
+  bool crosses_zoom = true; ///< the plane lies within depth_inner of the centre
 
   glm::dvec3 box_point(const glm::dvec2& across) const {
     return plane.axis_point + (across.x * plane.scale) * lens.map.right +
@@ -69,10 +71,12 @@ std::vector<Ring> rings_of(const Footprint& at) {
   return rings;
 }
 
-/// The zoom region: one polygon with one weight, so its map is affine.
+/// Inside the inner radius: one polygon with one weight, so its map is affine. It belongs to the zoom region
+/// only where the plane crosses that; in the warp depths the whole lens is border (LaMar §4.3, the blue
+/// planes of Fig. 7).
 Piece zoom_piece(const Footprint& at, const Ring& inner) {
   Piece piece;
-  piece.region = LensRegion::zoom;
+  piece.region = at.crosses_zoom ? LensRegion::zoom : LensRegion::border;
   for (std::size_t j = 0; j < at.lens.ring.size(); ++j) {
     piece.polygon.push_back(
         at.vertex(at.ring(j, inner.radius), at.ring(j, inner.texture_radius), inner.weight));
@@ -148,6 +152,51 @@ LensPolygon undisturbed(const Polygon& polygon) {
   return result;
 }
 
+/// The outlines of the footprint as half-planes that look away from it.
+std::vector<Plane> outward_sides(const Footprint& at) {
+  std::vector<Plane> sides;
+  const double outer = at.lens.map.outer;
+  if (at.lens.bounded) {
+    for (const glm::dvec2& normal :
+         {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)})
+      sides.push_back(at.half_plane(normal, outer));
+    return sides;
+  }
+  for (std::size_t j = 0; j < at.lens.ring.size(); ++j) {
+    const glm::dvec2 a = at.lens.ring[j];
+    const glm::dvec2 normal = glm::normalize(a + at.lens.ring[(j + 1) % at.lens.ring.size()]);
+    sides.push_back(at.half_plane(normal, outer * glm::dot(normal, a)));
+  }
+  return sides;
+}
+
+/// One side of the footprint, or one edge of the convex polygon, has the other wholly beyond it.
+bool apart(const LensPolygon& polygon, const Footprint& at, const std::vector<Plane>& sides) {
+  for (const Plane& side : sides) {
+    if (std::all_of(polygon.begin(), polygon.end(),
+                    [&](const LensVertex& v) { return signed_value(side, v.position) >= 0; }))
+      return true;
+  }
+  std::vector<glm::dvec2> corners;
+  for (const LensVertex& vertex : polygon) {
+    const glm::dvec3 offset = box_from_texture(at.space, vertex.position) - at.plane.axis_point;
+    corners.emplace_back(glm::dot(offset, at.lens.map.right), glm::dot(offset, at.lens.map.up));
+  }
+  const double reach = at.lens.map.outer * at.plane.scale;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const glm::dvec2 edge = corners[(i + 1) % corners.size()] - corners[i];
+    glm::dvec2 normal(edge.y, -edge.x);
+    if (glm::dot(normal, corners[(i + 2) % corners.size()] - corners[i]) > 0)
+      normal = -normal; // away from the polygon
+    // How far the footprint (a square or a circle about 0) reaches against the normal.
+    const double extent =
+        reach * (at.lens.bounded ? std::abs(normal.x) + std::abs(normal.y) : glm::length(normal));
+    if (-extent >= glm::dot(normal, corners[i]))
+      return true;
+  }
+  return false;
+}
+
 /// What a convex polygon keeps outside the footprint, in convex parts: at most four beside a square, one for
 /// each angular segment beside an unbounded circle.
 std::vector<LensPolygon> outside(const LensPolygon& polygon, const Footprint& at) {
@@ -178,42 +227,11 @@ std::vector<LensPolygon> outside(const LensPolygon& polygon, const Footprint& at
   return parts;
 }
 
-/// Gives every edge the corners of other pieces that lie on it, so that neighbours share all corners (a
-/// T-junction would let the rasteriser's snapping open a crack).
-void insert_shared_corners(LensPolygon& polygon, const std::vector<LensVertex>& corners) {
-  LensPolygon result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const LensVertex& a = polygon[i];
-    const LensVertex& b = polygon[(i + 1) % polygon.size()];
-    result.push_back(a);
-    const glm::dvec3 edge = b.position - a.position;
-    const double length2 = glm::dot(edge, edge);
-    std::vector<std::pair<double, const LensVertex*>> found;
-    for (const LensVertex& corner : corners) {
-      const glm::dvec3 d = corner.position - a.position;
-      const double x = glm::dot(d, edge) / length2;
-      if (!(x > 1e-9 && x < 1 - 1e-9))
-        continue;
-      const glm::dvec3 off = d - x * edge;
-      if (glm::dot(off, off) < 1e-20)
-        found.emplace_back(x, &corner);
-    }
-    std::sort(found.begin(), found.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
-    double last = 0;
-    for (const auto& [x, corner] : found) {
-      if (x - last > 1e-9)
-        result.push_back({corner->position, glm::dvec4(corner->position, 1)});
-      last = x;
-    }
-  }
-  polygon = std::move(result);
-}
-
-void append_fan(LensMesh& mesh, const Piece& piece) {
+void append_piece(LensMesh& mesh, const Piece& piece) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), piece.polygon.begin(), piece.polygon.end());
-  for (std::uint32_t i = 2; i < piece.polygon.size(); ++i) {
-    mesh.triangles.insert(mesh.triangles.end(), {first, first + i - 1, first + i});
+  for (const auto& [a, b, c] : triangulate(piece.polygon)) {
+    mesh.triangles.insert(mesh.triangles.end(), {first + a, first + b, first + c});
     mesh.regions.push_back(piece.region);
   }
 }
@@ -224,115 +242,100 @@ std::vector<Piece> lens_pieces(const Footprint& at) {
   const std::vector<Ring> rings = rings_of(at);
   pieces.push_back(zoom_piece(at, rings.front()));
   append_border(pieces, at, rings);
-  if (at.lens.bounded && at.lens.ring.size() != 4)
-    append_square_rest(pieces, at);
-  if (at.lens.bounded && at.lens.ring.size() == 4 && !at.lens.map.square)
+  if (at.lens.bounded && !at.lens.map.square)
     append_square_rest(pieces, at);
   return pieces;
+}
+
+/// The slice with the footprints of the lenses that reach it taken out, and what fills those.
+struct Parts {
+  std::vector<LensPolygon> normal;
+  std::vector<Piece> pieces;
+};
+
+template <class Fill>
+Parts part_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses, const BoxSpace& space,
+                 Fill fill) {
+  const LensPolygon whole = undisturbed(polygon);
+  Parts parts{{whole}, {}};
+  for (const LensTessellation& lens : lenses) {
+    const double z = glm::dot(box_from_texture(space, polygon[0]) - lens.map.center, lens.map.forward);
+    const Footprint at{lens, space, lens_plane(lens.map, z), std::abs(z) <= lens.map.depth_inner};
+    const std::vector<Plane> sides = outward_sides(at);
+    // Profiles map the footprint onto itself, so one beside the slice shows nothing of it.
+    if (!at.plane.touched || apart(whole, at, sides))
+      continue;
+    std::vector<LensPolygon> rest;
+    for (const LensPolygon& part : parts.normal) {
+      if (apart(part, at, sides)) {
+        rest.push_back(part);
+        continue;
+      }
+      for (LensPolygon& outer : outside(part, at))
+        rest.push_back(std::move(outer));
+    }
+    parts.normal = std::move(rest);
+    for (Piece& piece : fill(at))
+      parts.pieces.push_back(std::move(piece));
+  }
+  return parts;
+}
+
+/// Triangles of all parts, with shared corners and cut by the planes.
+LensMesh joined(Parts parts, const LensClip& clip_planes) {
+  const bool shared = !parts.pieces.empty();
+  for (LensPolygon& part : parts.normal)
+    parts.pieces.push_back({std::move(part), LensRegion::normal});
+  if (shared) {
+    std::vector<LensPolygon*> polygons;
+    for (Piece& piece : parts.pieces)
+      polygons.push_back(&piece.polygon);
+    share_corners(polygons);
+  }
+  LensMesh mesh;
+  for (Piece& piece : parts.pieces) {
+    for (const Plane& plane : clip_planes.texture)
+      piece.polygon = clip(piece.polygon, homogeneous(plane));
+    for (const Plane& plane : clip_planes.object)
+      piece.polygon = clip_position(piece.polygon, plane);
+    if (piece.polygon.size() >= 3)
+      append_piece(mesh, piece);
+  }
+  return mesh;
 }
 
 } // namespace
 
 LensMesh tessellate_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
                           const BoxSpace& space, const LensClip& clip_planes) {
-  LensMesh mesh;
   if (polygon.size() < 3)
-    return mesh;
-  std::vector<LensPolygon> normal = {undisturbed(polygon)};
-  std::vector<Piece> pieces;
-  for (const LensTessellation& lens : lenses) {
-    const double z = glm::dot(box_from_texture(space, polygon[0]) - lens.map.center, lens.map.forward);
-    const Footprint at{lens, space, lens_plane(lens.map, z)};
-    if (!at.plane.touched)
-      continue;
-    std::vector<LensPolygon> rest;
-    for (const LensPolygon& part : normal) {
-      for (LensPolygon& outer : outside(part, at))
-        rest.push_back(std::move(outer));
-    }
-    normal = std::move(rest);
-    for (Piece& piece : lens_pieces(at))
-      pieces.push_back(std::move(piece));
-  }
+    return {};
+  Parts parts = part_slice(polygon, lenses, space, lens_pieces);
   const std::vector<TextureHalfSpace> faces = faces_of(glm::dvec3(0), glm::dvec3(1));
-  for (Piece& piece : pieces) {
+  for (Piece& piece : parts.pieces) {
     for (const TextureHalfSpace& face : faces)
       piece.polygon = clip(piece.polygon, face);
   }
-  if (!pieces.empty()) {
-    // Only undisturbed corners can lie on the edges of undisturbed pieces.
-    std::vector<LensVertex> corners;
-    for (const Piece& piece : pieces) {
-      for (const LensVertex& vertex : piece.polygon) {
-        if (vertex.texture.w == 1 && glm::length(glm::dvec3(vertex.texture) - vertex.position) < 1e-10)
-          corners.push_back(vertex);
-      }
-    }
-    for (const LensPolygon& part : normal)
-      corners.insert(corners.end(), part.begin(), part.end());
-    for (LensPolygon& part : normal)
-      insert_shared_corners(part, corners);
-  }
-  for (LensPolygon& part : normal)
-    pieces.push_back({std::move(part), LensRegion::normal});
-  for (Piece& piece : pieces) {
-    for (const Plane& plane : clip_planes.texture)
-      piece.polygon = clip(piece.polygon, homogeneous(plane));
-    for (const Plane& plane : clip_planes.object)
-      piece.polygon = clip_position(piece.polygon, plane);
-    if (piece.polygon.size() >= 3)
-      append_fan(mesh, piece);
-  }
-  return mesh;
+  return joined(std::move(parts), clip_planes);
 }
 
 LensMesh cover_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
                      const BoxSpace& space, const std::vector<Plane>& object_clip) {
-  LensMesh mesh;
   if (polygon.size() < 3)
-    return mesh;
-  std::vector<LensPolygon> normal = {undisturbed(polygon)};
-  std::vector<Piece> pieces;
-  for (const LensTessellation& lens : lenses) {
-    LensTessellation square = lens;
-    square.bounded = true;
-    const double z = glm::dot(box_from_texture(space, polygon[0]) - lens.map.center, lens.map.forward);
-    const Footprint at{square, space, lens_plane(lens.map, z)};
-    if (!at.plane.touched)
-      continue;
-    std::vector<LensPolygon> rest;
-    for (const LensPolygon& part : normal) {
-      for (LensPolygon& outer : outside(part, at))
-        rest.push_back(std::move(outer));
-    }
-    normal = std::move(rest);
+    return {};
+  std::vector<LensTessellation> squares = lenses;
+  for (LensTessellation& lens : squares)
+    lens.bounded = true;
+  const auto whole_square = [](const Footprint& at) {
     Piece whole;
     whole.region = LensRegion::zoom;
     for (const glm::dvec2& corner :
          {glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(-1, -1)}) {
-      whole.polygon.push_back(at.still(lens.map.outer * corner));
+      whole.polygon.push_back(at.still(at.lens.map.outer * corner));
     }
-    pieces.push_back(std::move(whole));
-  }
-  std::vector<LensVertex> corners;
-  for (const Piece& piece : pieces)
-    corners.insert(corners.end(), piece.polygon.begin(), piece.polygon.end());
-  for (const LensPolygon& part : normal)
-    corners.insert(corners.end(), part.begin(), part.end());
-  for (LensPolygon& part : normal) {
-    if (!pieces.empty())
-      insert_shared_corners(part, corners);
-    pieces.push_back({std::move(part), LensRegion::normal});
-  }
-  for (Piece& piece : pieces) {
-    if (piece.region != LensRegion::normal)
-      insert_shared_corners(piece.polygon, corners);
-    for (const Plane& plane : object_clip)
-      piece.polygon = clip_position(piece.polygon, plane);
-    if (piece.polygon.size() >= 3)
-      append_fan(mesh, piece);
-  }
-  return mesh;
+    return std::vector<Piece>{whole};
+  };
+  return joined(part_slice(polygon, squares, space, whole_square), {{}, object_clip});
 }
 
 void refuse_overlap(const std::vector<LensTessellation>& lenses) {

@@ -22,23 +22,26 @@ void visit_border(double inner, double outer, std::size_t segments,
     visit(inner + (outer - inner) * static_cast<double>(i) / static_cast<double>(steps));
 }
 
-/// Largest shift in the picture, in units of box space: the error of the texture radius divided by the
-/// profile's slope.
-double shown_error(LensBorder border, double minification, double inner, double outer, std::size_t segments) {
-  double largest = 0;
-  visit_border(inner, outer, segments, [&](double r) {
-    const RadialProfile exact = radial_profile(border, minification, inner, outer, r);
-    const double error =
-        std::abs(tessellated_radius(border, minification, inner, outer, segments, r) - exact.value);
-    largest = std::max(largest, error / std::max(exact.slope, 1e-6));
+/// No point of the border is shown farther than `shift` (box space) from where the exact profile shows it:
+/// f(r − shift) ≤ tessellated radius ≤ f(r + shift). Dividing the error by the slope instead asks for too
+/// many segments where the slope changes within the shift.
+bool shown_within(const LamarLens& lens, std::size_t segments, double shift) {
+  const double m = 1 / lens.zoom;
+  const auto exact = [&](double r) {
+    return radial_profile(lens.border, m, lens.inner, lens.outer, std::max(r, 0.0)).value;
+  };
+  bool within = true;
+  visit_border(lens.inner, lens.outer, segments, [&](double r) {
+    if (!within)
+      return;
+    const double shown = tessellated_radius(lens.border, m, lens.inner, lens.outer, segments, r);
+    within = exact(r - shift) <= shown && shown <= exact(r + shift);
   });
-  return largest;
+  return within;
 }
 
 std::size_t adaptive_segments(const LamarLens& lens, double pixels_per_unit) {
-  const auto good = [&](std::size_t n) {
-    return shown_error(lens.border, 1 / lens.zoom, lens.inner, lens.outer, n) * pixels_per_unit <= 0.5;
-  };
+  const auto good = [&](std::size_t n) { return shown_within(lens, n, 0.5 / pixels_per_unit); };
   // The error falls with n, so bisection between powers of two finds the fewest.
   std::size_t high = 1;
   while (!good(high)) {

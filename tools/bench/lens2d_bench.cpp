@@ -1,13 +1,11 @@
-#include "lens2d_bench.h"
-
-#include "gl/timer.h"
+// Section `lens2d`: LaMar's Table 2, pictures per second of six 2D lenses as a fraction of the same renderer
+// without one.
+#include "bench.h"
 #include "image/patterns.h"
 #include "render/lens_renderer.h"
-#include "study/statistics.h"
 
 #include <cstdio>
 #include <string>
-#include <vector>
 
 namespace slicelens::bench {
 
@@ -43,63 +41,49 @@ std::string warp_of(const PaperRow& row) {
          (cubic ? "8" : "4") + "}";
 }
 
-struct Measured {
-  double seconds = 0; ///< of one picture
-  double ratio = 0;   ///< rate as a fraction of the baseline's
-};
+constexpr int frames = 50; // of one measurement: enough for the driver to work on several at once
 
-/// Runs baseline and lens in turn; the ratio is the median of neighbours', which see the same load.
-Measured measure(const gl::Functions& gl, const PictureRenderer& baseline, const PictureRenderer& lens,
-                 const gl::Target& target, int runs, int frames) {
-  const auto seconds = [&](const PictureRenderer& renderer) {
+/// Baseline and lens in turn.
+Turns measure(const gl::Functions& gl, const PictureRenderer& baseline, const PictureRenderer& lens,
+              const gl::Target& target, int runs) {
+  const auto draw = [&](const PictureRenderer& renderer) {
     renderer.bind(target);
-    return gl::elapsed_seconds(gl, [&] {
-             for (int i = 0; i < frames; ++i) {
-               renderer.draw_bound();
-               gl.Flush(); // a picture is shown before the next one starts
-             }
-           }) /
-           frames;
+    for (int i = 0; i < frames; ++i) {
+      renderer.draw_bound();
+      gl.Flush(); // a picture is shown before the next one starts
+    }
   };
-  seconds(baseline);
-  seconds(lens);
-  std::vector<double> times;
-  std::vector<double> ratios;
-  for (int i = 0; i < runs; ++i) {
-    const double without = seconds(baseline);
-    times.push_back(seconds(lens));
-    ratios.push_back(without / times.back());
-  }
-  return {median(times), median(ratios)};
+  return in_turn(gl, runs, [&] { draw(baseline); }, [&] { draw(lens); });
 }
 
 } // namespace
 
-void run_lens2d(gl::Context& context, int runs, int frames) {
+void run_lens2d(gl::Context& context, const BenchOptions& options) {
   const gl::Functions& gl = context.functions();
   const gl::Target target = gl::make_target(gl, 500, 500, GL_RGBA8);
   const PictureRenderer baseline(gl, prepared_row("[]", "tessellated"));
-  const double plain = measure(gl, baseline, baseline, target, runs, frames).seconds;
-  std::printf("\n## lens2d: LaMar's Table 2\n\n500² window, lens 250², zoom region 186², border 32 pixels, zoom 4; "
-              "RGBA8 image and target, linear filter; %d × %d pictures in turn with the baseline. Baseline (two "
-              "triangles): %.0f pictures a second, %.1f µs each.\n\n"
-              "| lens | tessellated | Onyx2 | GeForce2 | triangles | ns per triangle | fragment | lookup |\n"
-              "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
-              runs, frames, 1 / plain, plain * 1e6);
+  const double plain = median(measure(gl, baseline, baseline, target, options.runs).a) / frames;
+  std::printf("\n## lens2d: LaMar's Table 2\n\n500² window, lens 250², zoom region 186², border 32 pixels, "
+              "zoom 4; RGBA8 image and target, linear filter; %d measurements of %d pictures, in turn with the "
+              "baseline. Baseline (two triangles): %.0f pictures a second. Fractions of its rate by wall clock "
+              "and by processor time of all threads; fragment and lookup by processor time.\n",
+              options.runs, frames, 1 / plain);
+  print_heading({"lens", "wall clock", "processor", "Onyx2", "GeForce2", "triangles", "ns a triangle",
+                 "fragment", "lookup"});
   for (const PaperRow& row : paper_rows) {
     const PictureRenderer lens(gl, prepared_row(warp_of(row), "tessellated"));
     const PictureRenderer fragment(gl, prepared_row(warp_of(row), "fragment"));
     const PictureRenderer lookup(gl, prepared_row(warp_of(row), "lookup"));
-    const Measured by_vertex = measure(gl, baseline, lens, target, runs, frames);
-    const Measured by_fragment = measure(gl, baseline, fragment, target, runs, frames);
-    const Measured by_table = measure(gl, baseline, lookup, target, runs, frames);
-    const double extra = by_vertex.seconds * (1 - by_vertex.ratio);
-    const auto triangles = static_cast<double>(lens.triangle_count());
-    std::printf("| %s, %s | %.3f | %.2f | %.2f | %zu | %.0f | %.3f | %.3f |\n", row.shape, row.border,
-                by_vertex.ratio, row.onyx, row.geforce, lens.triangle_count(),
-                1e9 * extra / (triangles - static_cast<double>(baseline.triangle_count())), by_fragment.ratio,
-                by_table.ratio);
-    std::fflush(stdout);
+    const Turns by_vertex = measure(gl, baseline, lens, target, options.runs);
+    const Turns by_fragment = measure(gl, baseline, fragment, target, options.runs);
+    const Turns by_table = measure(gl, baseline, lookup, target, options.runs);
+    const auto more = static_cast<double>(lens.triangle_count() - baseline.triangle_count());
+    const double extra = (median(by_vertex.b_work) - median(by_vertex.a_work)) / frames;
+    print_row({std::string(row.shape) + " " + row.border, spread_text(ratios(by_vertex.a, by_vertex.b), 2),
+               spread_text(ratios(by_vertex.a_work, by_vertex.b_work), 2), fixed(row.onyx, 2),
+               fixed(row.geforce, 2), std::to_string(lens.triangle_count()), fixed(1e9 * extra / more, 0),
+               fixed(ratios(by_fragment.a_work, by_fragment.b_work).median, 2),
+               fixed(ratios(by_table.a_work, by_table.b_work).median, 2)});
   }
 }
 

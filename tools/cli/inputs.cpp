@@ -90,15 +90,21 @@ SceneInput scene_input(const std::string& input, const std::vector<std::string>&
   return {scene_from_json("{}", input, with_file), {"."}, "", input};
 }
 
-PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256) {
-  std::string hash;
-  if (input.scene.volume.file && (sha256 != nullptr || !input.expected_sha256.empty())) {
-    hash = sha256_of(files_of(source_of(input.scene.volume, input.folders)));
-    require_hash(input, hash);
-  }
+std::future<std::string> start_hash(const SceneInput& input) {
+  if (!input.scene.volume.file)
+    return {};
+  return std::async(std::launch::async, sha256_of, files_of(source_of(input.scene.volume, input.folders)));
+}
+
+PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256,
+                   std::future<std::string> hashing) {
+  if (!hashing.valid() && (sha256 != nullptr || !input.expected_sha256.empty()))
+    hashing = start_hash(input);
+  Volume volume = load_volume(input.scene.volume, input.folders, progress);
+  const std::string hash = hashing.valid() ? hashing.get() : "";
+  require_hash(input, hash);
   if (sha256 != nullptr)
     *sha256 = hash;
-  Volume volume = load_volume(input.scene.volume, input.folders, progress);
   TransferFunction transfer = transfer_of(input.scene, volume);
   return prepare(input.scene, std::move(volume), std::move(transfer));
 }

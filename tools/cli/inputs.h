@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 
 #include <filesystem>
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,9 +36,15 @@ SceneInput scene_input(const std::string& input, const std::vector<std::string>&
 SceneInput scene_text_input(const std::string& text, const std::string& source,
                             const std::vector<std::string>& set);
 
+/// Starts the SHA-256 of the volume's files on a thread of its own; an empty future for phantoms. Throws
+/// FileError where there are no such files.
+std::future<std::string> start_hash(const SceneInput& input);
+
 /// Reads or makes the volume and works everything out. `sha256` receives the hash of the volume's files
-/// (empty for phantoms). Throws FileError when the hash is not the expected one.
-PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256 = nullptr);
+/// (empty for phantoms), `hashing` is one already started. Throws FileError when the hash is not the expected
+/// one.
+PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256 = nullptr,
+                   std::future<std::string> hashing = {});
 
 /// Opens the context that the scene asks for, where it needs one, and renders. `context` keeps it open for
 /// the next scene that asks for the same kind.

@@ -4,6 +4,7 @@
 #include "console.h"
 #include "core/errors.h"
 #include "core/text.h"
+#include "memory.h"
 #include "options.h"
 
 #include <CLI/CLI.hpp>
@@ -259,6 +260,7 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace slicelens;
   cli::fill_closed_streams();
+  keep_freed_memory();
   try {
     return cli::run_program(argc, argv);
   } catch (const UsageError& error) {

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <optional>
 #include <system_error>
 
@@ -39,7 +40,16 @@ double seconds_since(std::chrono::steady_clock::time_point& mark) {
   return seconds;
 }
 
-void print_verbose(const RenderResult& result, const PreparedScene& prepared, double load, double write) {
+/// Lets TBB open its libraries and start its threads, by a reduction large enough to be shared out.
+void start_threads() {
+  Volume zeros;
+  zeros.dims = {128, 128, 64};
+  zeros.voxels.resize(voxel_bytes(zeros));
+  update_statistics(zeros);
+}
+
+void print_verbose(const RenderResult& result, const PreparedScene& prepared, double load, double codec,
+                   double write) {
   const auto& dims = prepared.volume.dims;
   std::fprintf(stderr, "volume     %zux%zux%zu %s, values %g to %g, %s\n", dims[0], dims[1], dims[2],
                name_of(prepared.volume.type).c_str(), prepared.volume.min, prepared.volume.max,
@@ -58,9 +68,10 @@ void print_verbose(const RenderResult& result, const PreparedScene& prepared, do
   }
   const RenderTimes& t = result.times;
   std::fprintf(stderr,
-               "load       %8.3f s\ncontext    %8.3f s\nupload     %8.3f s\ncompile    %8.3f s\nslice      "
+               "load       %8.3f s\ncodec      %8.3f s\ncontext    %8.3f s\nupload     %8.3f s\ncompile    "
+               "%8.3f s\nslice      "
                "%8.3f s\ndraw       %8.3f s",
-               load, t.context, t.upload, t.compile, t.slice, t.draw);
+               load, codec, t.context, t.upload, t.compile, t.slice, t.draw);
   if (t.gpu_draw)
     std::fprintf(stderr, "  (driver's timer %.3f s)", *t.gpu_draw);
   std::fprintf(stderr, "\nread       %8.3f s\nwrite      %8.3f s\n", t.read, write);
@@ -85,10 +96,16 @@ void run_render(const RenderOptions& options) {
     context.name = input.scene.render.context;
   }
   const double open = seconds_since(mark);
+  // No thread starts and no other library opens while the codec's libraries are being loaded, so whatever is
+  // to run beside that must be there before.
+  start_threads();
+  std::future<std::string> hashing = start_hash(input);
   preload_codec();
   std::string sha256;
-  const PreparedScene prepared = load(input, progress, &sha256);
+  const PreparedScene prepared = load(input, progress, &sha256, std::move(hashing));
   const double loading = seconds_since(mark);
+  await_codec();
+  const double codec = seconds_since(mark);
   RenderResult result = render_with(context, prepared, progress);
   result.times.context = open;
   add_metadata(result, prepared.scene, sha256);
@@ -96,7 +113,7 @@ void run_render(const RenderOptions& options) {
   write_image(result.image, output, depth);
   end_progress();
   if (options.verbose)
-    print_verbose(result, prepared, loading, seconds_since(mark));
+    print_verbose(result, prepared, loading, codec, seconds_since(mark));
   std::printf("%s\n", output.c_str());
 }
 
