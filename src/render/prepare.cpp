@@ -3,6 +3,9 @@
 #include "core/errors.h"
 #include "scene/camera.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace slicelens {
 
 PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer) {
@@ -47,6 +50,15 @@ void include_footprint(const LamarMap& map, glm::dvec3& low, glm::dvec3& high) {
 void prepare_warps(PreparedScene& prepared) {
   prepared.space = box_space(prepared.box);
   prepared.warp_view = warp_view(prepared.view, prepared.box);
+  const glm::dmat3& axes = prepared.volume.direction;
+  const bool sheared = std::abs(glm::dot(axes[0], axes[1])) > 1e-3 ||
+                       std::abs(glm::dot(axes[1], axes[2])) > 1e-3 ||
+                       std::abs(glm::dot(axes[2], axes[0])) > 1e-3;
+  if (sheared && !prepared.scene.warp.empty()) {
+    throw UsageError(
+        "warp '" + kind_of(prepared.scene.warp[0]) +
+        "' needs a volume with axes at right angles; this one is sheared (a tilted gantry, for instance)");
+  }
   prepared.lenses.clear();
   glm::dvec3 low(0);
   glm::dvec3 high = prepared.space.size;

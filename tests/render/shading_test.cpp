@@ -78,7 +78,7 @@ TEST_CASE("normals of a ball, from three lights", "[one-driver]") {
   }
 }
 
-TEST_CASE("light at the camera, on both sides or one") {
+TEST_CASE("light at the camera, on both sides or one", "[one-driver]") {
   gl::Context context = test_context();
   for (const std::string projection : {"orthographic", "perspective"}) {
     for (const std::string pipeline : {"slices", "rays", "reference"}) {
