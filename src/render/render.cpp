@@ -35,18 +35,6 @@ std::string limits_text(const gl::Limits& limits) {
          std::to_string(limits.timer_query_bits);
 }
 
-GLenum format_of(Target target) {
-  switch (target) {
-  case Target::rgba8:
-    return GL_RGBA8;
-  case Target::rgba16f:
-    return GL_RGBA16F;
-  case Target::rgba32f:
-    break;
-  }
-  return GL_RGBA32F;
-}
-
 /// Draws with `draw` between the marks of a timer query.
 template <class Draw>
 std::optional<double> timed_draw(const gl::Functions& gl, Draw draw) {
@@ -66,7 +54,7 @@ void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Pr
   Stopwatch watch;
   const GpuScene scene = upload(gl, prepared, progress);
   const gl::Target target =
-      gl::make_target(gl, prepared.view.width, prepared.view.height, format_of(settings.target));
+      gl::make_target(gl, prepared.view.width, prepared.view.height, texture_format(settings.target));
   gl::finish(gl);
   result.times.upload = watch.lap();
   const auto draw_slices = [&](auto renderer) {
@@ -102,6 +90,18 @@ void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Pr
 
 gl::Profile profile_of(Pipeline pipeline) {
   return pipeline == Pipeline::fixed_function ? gl::Profile::compatibility : gl::Profile::core;
+}
+
+GLenum texture_format(Target target) {
+  switch (target) {
+  case Target::rgba8:
+    return GL_RGBA8;
+  case Target::rgba16f:
+    return GL_RGBA16F;
+  case Target::rgba32f:
+    break;
+  }
+  return GL_RGBA32F;
 }
 
 gl::Context open_context_for(const Scene& scene) {

@@ -34,6 +34,9 @@ struct RenderResult {
   std::size_t triangles = 0; ///< of all slices
 };
 
+/// The internal format that `render.target` names.
+GLenum texture_format(Target target);
+
 /// `compatibility` for pipeline `fixed-function`, which cannot be drawn in a core context.
 gl::Profile profile_of(Pipeline pipeline);
 

@@ -57,10 +57,11 @@ std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes) {
   return vectors;
 }
 
-void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared) {
-  set_uniform(gl, program, "box_size", glm::vec3(prepared.space.size));
-  for (std::size_t i = 0; i < prepared.lenses.size(); ++i) {
-    const LamarMap& map = prepared.lenses[i].map;
+void set_lens_uniforms(const gl::Functions& gl, const gl::Program& program,
+                       const std::vector<LensTessellation>& lenses, const BoxSpace& space) {
+  set_uniform(gl, program, "box_size", glm::vec3(space.size));
+  for (std::size_t i = 0; i < lenses.size(); ++i) {
+    const LamarMap& map = lenses[i].map;
     const std::string lens = "lenses[" + std::to_string(i) + "].";
     const auto set_vector = [&](const char* name, const glm::dvec3& v) {
       set_uniform(gl, program, (lens + name).c_str(), glm::vec3(v));
@@ -82,6 +83,10 @@ void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, cons
     set_number("depth_inner", map.depth_inner);
     set_number("depth_outer", map.depth_outer);
   }
+}
+
+void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared) {
+  set_lens_uniforms(gl, program, prepared.lenses, prepared.space);
   const std::vector<glm::vec4> planes = plane_vectors(prepared.data_clip);
   set_uniform(gl, program, "data_plane_count", static_cast<int>(planes.size()));
   if (!planes.empty())

@@ -12,6 +12,10 @@ namespace slicelens {
 /// Macros for sampling, mode and shading, as shaders/ names them.
 std::vector<std::string> common_macros(const PreparedScene& prepared);
 
+/// Sets `lenses` and `box_size` of shaders/gpu/warp.glsl. The program must be in use.
+void set_lens_uniforms(const gl::Functions& gl, const gl::Program& program,
+                       const std::vector<LensTessellation>& lenses, const BoxSpace& space);
+
 /// Sets what shaders/gpu/warp.glsl declares. The program must be in use.
 void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared);
 

@@ -9,7 +9,8 @@ namespace slicelens {
 
 namespace fs = std::filesystem;
 
-fs::path resolve_file(const std::string& file, const std::vector<fs::path>& folders) {
+fs::path resolve_file(const std::string& file, const std::vector<fs::path>& folders,
+                      const std::string& key) {
   const fs::path path(file);
   if (path.is_absolute() || folders.empty())
     return path;
@@ -25,7 +26,7 @@ fs::path resolve_file(const std::string& file, const std::vector<fs::path>& fold
   }
   if (folders.size() == 1)
     throw FileError(file, "there is no such file or folder; check the name");
-  throw FileError(file, "not found in " + looked + "; give another path with --set volume.file=…");
+  throw FileError(file, "not found in " + looked + "; give another path with --set " + key + "=…");
 }
 
 VolumeSource source_of(const VolumeSettings& settings, const std::vector<fs::path>& folders) {

@@ -102,46 +102,28 @@ void append_border(std::vector<Piece>& pieces, const Footprint& at, const std::v
   }
 }
 
-/// Where the ray from the axis along `direction` leaves the square of half edge 1.
-glm::dvec2 on_square(const glm::dvec2& direction) {
-  return direction / std::max(std::abs(direction.x), std::abs(direction.y));
-}
-
-/// The undisturbed region between a circle's outer ring and its bounding square: one piece for each angular
-/// segment, with the square's corner where it has one (LaMar Fig. 6).
+/// The undisturbed region between a circle's outer ring and its bounding square (LaMar Fig. 6) in the fewest
+/// triangles: each edge of the ring with the square's corner in whose quadrant it lies, and where that corner
+/// changes, each side of the square passed with the ring's corner there (nothing where that touches the side).
 void append_square_rest(std::vector<Piece>& pieces, const Footprint& at) {
   const double outer = at.lens.map.outer;
   const std::size_t n = at.lens.ring.size();
+  constexpr glm::dvec2 square[] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+  const auto quadrant = [&](std::size_t j) {
+    const glm::dvec2 middle = at.lens.ring[j % n] + at.lens.ring[(j + 1) % n];
+    return middle.y >= 0 ? (middle.x >= 0 ? 0U : 1U) : (middle.x < 0 ? 2U : 3U);
+  };
+  const auto append = [&](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    const glm::dvec2 ab = b - a;
+    const glm::dvec2 ac = c - a;
+    if (std::abs(ab.x * ac.y - ab.y * ac.x) > 1e-12)
+      pieces.push_back({{at.still(outer * a), at.still(outer * b), at.still(outer * c)}, LensRegion::normal});
+  };
   for (std::size_t j = 0; j < n; ++j) {
-    const glm::dvec2 a = at.lens.ring[j];
-    const glm::dvec2 b = at.lens.ring[(j + 1) % n];
-    const glm::dvec2 from = on_square(a);
-    const glm::dvec2 to = on_square(b);
-    std::vector<glm::dvec2> outline = {a, from};
-    // Corners of the square strictly between the two directions; wide segments pass up to two.
-    constexpr glm::dvec2 square[] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
-    std::vector<std::pair<double, glm::dvec2>> passed;
-    for (const glm::dvec2& corner : square) {
-      const auto turn = [&](const glm::dvec2& v) {
-        const double angle = std::atan2(a.x * v.y - a.y * v.x, glm::dot(a, v));
-        return angle < -1e-12 ? angle + 2 * 3.14159265358979323846 : angle;
-      };
-      if (turn(corner) > 1e-12 && turn(corner) < turn(b) - 1e-12)
-        passed.emplace_back(turn(corner), corner);
-    }
-    std::sort(passed.begin(), passed.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-    for (const auto& [angle, corner] : passed)
-      outline.push_back(corner);
-    outline.push_back(to);
-    outline.push_back(b);
-    Piece piece;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      if (glm::length(outline[i] - outline[(i + 1) % outline.size()]) < 1e-12)
-        continue;
-      piece.polygon.push_back(at.still(outer * outline[i]));
-    }
-    if (piece.polygon.size() >= 3)
-      pieces.push_back(std::move(piece));
+    const glm::dvec2 to = at.lens.ring[(j + 1) % n];
+    append(square[quadrant(j)], to, at.lens.ring[j]);
+    for (unsigned q = quadrant(j); q != quadrant(j + 1); q = (q + 1) % 4)
+      append(square[q], square[(q + 1) % 4], to);
   }
 }
 

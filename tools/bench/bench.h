@@ -56,6 +56,7 @@ void print_heading(const std::vector<std::string>& cells);
 void run_fill(gl::Context& context, const BenchOptions& options);
 void run_options(gl::Context& context, const BenchOptions& options);
 void run_phases(const BenchOptions& options);
+void run_lens2d(gl::Context& context, const BenchOptions& options);
 void run_lens3d(gl::Context& context, const BenchOptions& options);
 
 } // namespace slicelens::bench

@@ -42,6 +42,8 @@ void run(const BenchOptions& options) {
       run_fill(context, options);
     if (wanted("options"))
       run_options(context, options);
+    if (wanted("lens2d"))
+      run_lens2d(context, options);
     if (wanted("lens3d"))
       run_lens3d(context, options);
   }
@@ -60,8 +62,8 @@ int main(int argc, char** argv) {
   CLI::App app("Measures the slice pipeline against a bare loop, the cost of each option, and the phases of "
                "a picture. Prints Markdown.",
                "slicelens_bench");
-  app.add_option("sections", options.sections, "fill, options, lens3d, phases; none: all")
-      ->check(CLI::IsMember({"fill", "options", "lens3d", "phases"}));
+  app.add_option("sections", options.sections, "fill, options, lens2d, lens3d, phases; none: all")
+      ->check(CLI::IsMember({"fill", "options", "lens2d", "lens3d", "phases"}));
   app.add_option("--volume", options.volumes, "volume files or folders for `phases`")->type_name("PATH");
   app.add_option("--edge", options.edge, "voxels on an edge of the phantom")->check(CLI::Range(8, 1024));
   app.add_option("--picture", options.picture, "pixels on an edge of the picture")

@@ -4,6 +4,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "image/image_io.h"
+#include "scene/image_scene.h"
 #include "scene/load.h"
 #include "scene/scene_json.h"
 
@@ -68,11 +69,16 @@ SceneInput scene_input(const std::string& input, const std::vector<std::string>&
   const std::vector<KeyValue> changes = assignments(set);
   const fs::path home = fs::path(input).parent_path();
   if (kind_of(input) == InputKind::scene) {
-    return {scene_from_json(read_text(input), input, changes), folders_for(home, changes), "", input};
+    const std::string text = read_text(input);
+    if (is_image_scene(text))
+      throw UsageError(input + ": a scene of a picture; draw it with slicelens lens");
+    return {scene_from_json(text, input, changes), folders_for(home, changes), "", input};
   }
   if (kind_of(input) == InputKind::picture) {
     const auto metadata = read_metadata(input);
     const auto scene = metadata.find("slicelens:scene");
+    if (metadata.count("slicelens:image_scene") != 0)
+      throw UsageError(input + ": holds the scene of a picture; draw it again with slicelens lens");
     if (scene == metadata.end()) {
       throw UsageError(input + ": this picture holds no Slicelens scene; to render an image stack give its "
                                "folder or a pattern such as slice_*.png");

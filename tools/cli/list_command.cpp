@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "gl/context.h"
 #include "options.h"
+#include "scene/image_scene.h"
 #include "scene/names.h"
 #include "scene/scene_json.h"
 #include "volume/phantom.h"
@@ -56,6 +57,11 @@ void list_keys() {
     row(key, help);
 }
 
+void list_lens_keys() {
+  for (const auto& [key, help] : list_image_scene_keys())
+    row(key, help);
+}
+
 void list_figures() {
   for (const EmbeddedFile& file : embedded_scenes())
     row(file.name, scene_from_json(file.text, file.name).title);
@@ -68,7 +74,7 @@ void list_warps() { std::printf("no warps are part of this version\n"); }
 void run_list(const ListOptions& options) {
   const std::vector<std::pair<std::string, std::function<void()>>> lists = {
       {"contexts", list_contexts}, {"figures", list_figures},     {"keys", list_keys},
-      {"phantoms", list_phantoms}, {"pipelines", list_pipelines}, {"presets", list_presets},
+      {"lens-keys", list_lens_keys}, {"phantoms", list_phantoms}, {"pipelines", list_pipelines}, {"presets", list_presets},
       {"warps", list_warps}};
   std::vector<std::string> names;
   for (const auto& [name, list] : lists) {

@@ -60,6 +60,41 @@ void add_render(CLI::App& app, RenderOptions& options, std::function<void()>& ru
   command.callback([&options, &run] { run = [&options] { run_render(options); }; });
 }
 
+void add_lens(CLI::App& app, LensOptions& options, std::function<void()>& run) {
+  CLI::App& command =
+      *app.add_subcommand("lens", "put LaMar's magnification lens on a picture, a checkerboard or a test card");
+  command.footer("A SCENE is a JSON file with a section image; an IMAGE that this command wrote is drawn again from its "
+                 "scene.\nPositions are fractions of the image from its top left corner, lengths fractions of its "
+                 "longer edge.\n\n"
+                 "  slicelens lens photo.jpg -o lens.png --set warp.center=[0.3,0.6] --set warp.zoom=3\n"
+                 "  slicelens lens checkerboard -o grid.png --set warp.border=linear --wireframe --outline\n"
+                 "  slicelens list lens-keys");
+  command.add_option("input", options.input, "IMAGE, SCENE, checkerboard or testcard")
+      ->required()
+      ->type_name("");
+  command.add_option("-o,--output", options.output, "picture to write, .png or .exr")
+      ->required()
+      ->type_name("FILE");
+  add_set(command, options.set, "--set",
+          "change a key of the 2D scene, for instance warp.zoom=3; may be given again (see: slicelens list "
+          "lens-keys)");
+  command.add_flag("--wireframe", options.wireframe, "draw the edges of the segments");
+  command.add_flag("--outline", options.outline, "draw the inner and the outer edge of each lens");
+  command.add_option("--lattice", options.lattice, "draw a regular lattice carried through the lens")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  command.add_flag("--magnification", options.magnification,
+                   "show the local magnification in false colours, with a bar");
+  command
+      .add_option("--depth", options.depth,
+                  "8 or 16 for .png (default 8), half or float for .exr (default half)")
+      ->type_name("DEPTH");
+  command.add_flag("--print-scene", options.print_scene,
+                   "print the scene with every default filled in, and do nothing else");
+  command.add_flag("-v,--verbose", options.verbose, "say on stderr what was drawn by what");
+  command.callback([&options, &run] { run = [&options] { run_lens(options); }; });
+}
+
 void add_compare(CLI::App& app, CompareOptions& options, std::function<void()>& run) {
   CLI::App& command =
       *app.add_subcommand("compare", "compare two pictures or scenes; metrics as JSON on stdout");
@@ -119,7 +154,7 @@ void add_phantom(CLI::App& app, PhantomOptions& options, std::function<void()>& 
 
 void add_list(CLI::App& app, ListOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand("list", "what this program knows");
-  command.add_option("what", options.what, "contexts, figures, keys, phantoms, pipelines, presets or warps")
+  command.add_option("what", options.what, "contexts, figures, keys, lens-keys, phantoms, pipelines, presets or warps")
       ->type_name("");
   command.callback([&options, &run] { run = [&options] { run_list(options); }; });
 }
@@ -189,12 +224,14 @@ int run_program(int argc, char** argv) {
              "slicelens render --help");
   std::function<void()> run;
   RenderOptions render;
+  LensOptions lens;
   CompareOptions compare;
   InfoOptions info;
   PhantomOptions phantom;
   ListOptions list;
   GalleryOptions gallery;
   add_render(app, render, run);
+  add_lens(app, lens, run);
   add_compare(app, compare, run);
   add_info(app, info, run);
   add_phantom(app, phantom, run);

@@ -16,6 +16,19 @@ struct RenderOptions {
   bool verbose = false;
 };
 
+struct LensOptions {
+  std::string input; ///< picture, 2D scene, "checkerboard" or "testcard"
+  std::string output;
+  std::vector<std::string> set;
+  std::string depth; ///< as in RenderOptions
+  bool wireframe = false;
+  bool outline = false;
+  std::optional<std::size_t> lattice;
+  bool magnification = false;
+  bool print_scene = false;
+  bool verbose = false;
+};
+
 struct CompareOptions {
   std::string a;
   std::string b; ///< empty: a again
@@ -53,6 +66,7 @@ struct GalleryOptions {
 // Each runs one command and returns; results go to stdout and files, the rest to stderr. They throw the
 // errors of core/errors.h.
 void run_render(const RenderOptions& options);
+void run_lens(const LensOptions& options);
 void run_compare(const CompareOptions& options);
 void run_info(const InfoOptions& options);
 void run_phantom(const PhantomOptions& options);

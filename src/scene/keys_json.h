@@ -1,0 +1,487 @@
+// Between JSON and the key tables (scene/keys.h): reading, writing, listing, and changing single keys. For the
+// scene readers of this folder only.
+#pragma once
+
+#include "core/errors.h"
+#include "core/text.h"
+#include "scene/keys.h"
+#include "scene/names.h"
+#include "scene/scene_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <type_traits>
+
+namespace slicelens::keys_json {
+
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] inline void refuse(const std::string& path, const Json& value, const std::string& wanted) {
+  std::string text = value.dump();
+  if (text.size() > 60)
+    text = text.substr(0, 57) + "…";
+  throw UsageError(path + ": " + text + " is not valid; " + wanted);
+}
+
+/// The sentence a range adds to "a number".
+inline std::string range_text(Range range) {
+  switch (range) {
+  case Range::positive:
+    return " above 0";
+  case Range::non_negative:
+    return " of 0 or more";
+  case Range::unit:
+    return " from 0 to 1";
+  case Range::any:
+    break;
+  }
+  return "";
+}
+
+inline bool in_range(double value, Range range) {
+  if (!std::isfinite(value))
+    return false;
+  switch (range) {
+  case Range::positive:
+    return value > 0;
+  case Range::non_negative:
+    return value >= 0;
+  case Range::unit:
+    return value >= 0 && value <= 1;
+  case Range::any:
+    break;
+  }
+  return true;
+}
+
+// ---- from JSON: one overload for each kind of field
+// -----------------------------------------------------------------
+
+inline void read(const Json& json, const std::string& path, bool& value, Range) {
+  if (!json.is_boolean())
+    refuse(path, json, "give true or false");
+  value = json.get<bool>();
+}
+
+inline void read(const Json& json, const std::string& path, double& value, Range range) {
+  if (!json.is_number() || !in_range(json.get<double>(), range))
+    refuse(path, json, "give a number" + range_text(range));
+  value = json.get<double>();
+}
+
+inline void read(const Json& json, const std::string& path, std::size_t& value, Range) {
+  const bool whole = json.is_number_unsigned() || (json.is_number_integer() && json.get<std::int64_t>() >= 0);
+  if (!whole)
+    refuse(path, json, "give a whole number of 0 or more");
+  value = json.get<std::size_t>();
+}
+
+inline void read(const Json& json, const std::string& path, std::string& value, Range) {
+  if (!json.is_string())
+    refuse(path, json, "give a text in quotes");
+  value = json.get<std::string>();
+}
+
+inline void read(const Json& json, const std::string& path, ScalarType& value, Range) {
+  if (!json.is_string())
+    refuse(path, json, "give a scalar type such as \"uint8\"");
+  try {
+    value = scalar_type_from_name(json.get<std::string>());
+  } catch (const UsageError& error) {
+    throw UsageError(path + ": " + error.what());
+  }
+}
+
+template <class Enum, std::enable_if_t<std::is_enum_v<Enum>, int> = 0>
+void read(const Json& json, const std::string& path, Enum& value, Range) {
+  if (json.is_string()) {
+    for (const auto& entry : names_of(value)) {
+      if (json.get<std::string>() == entry.name) {
+        value = entry.value;
+        return;
+      }
+    }
+  }
+  refuse(path, json, "give one of " + join(words_of(value)));
+}
+
+/// An array of exactly `count` entries.
+inline void require_array(const Json& json, const std::string& path, std::size_t count, const std::string& of) {
+  if (!json.is_array() || json.size() != count)
+    refuse(path, json, "give a list of " + std::to_string(count) + " " + of);
+}
+
+template <int N>
+void read(const Json& json, const std::string& path, glm::vec<N, double>& value, Range range) {
+  require_array(json, path, static_cast<std::size_t>(N), "numbers");
+  for (int i = 0; i < N; ++i)
+    read(json[static_cast<std::size_t>(i)], path + "[" + std::to_string(i) + "]", value[i], range);
+}
+
+template <class T, std::size_t N>
+void read(const Json& json, const std::string& path, std::array<T, N>& value, Range range) {
+  require_array(json, path, N, "numbers");
+  for (std::size_t i = 0; i < N; ++i)
+    read(json[i], path + "[" + std::to_string(i) + "]", value[i], range);
+}
+
+template <class T>
+void read(const Json& json, const std::string& path, std::vector<T>& value, Range range) {
+  if (!json.is_array())
+    refuse(path, json, "give a list");
+  value.clear();
+  for (std::size_t i = 0; i < json.size(); ++i)
+    read(json[i], path + "[" + std::to_string(i) + "]", value.emplace_back(), range);
+}
+
+template <class T>
+void read(const Json& json, const std::string& path, std::optional<T>& value, Range range) {
+  read(json, path, value.emplace(), range);
+}
+
+// ---- to JSON
+// --------------------------------------------------------------------------------------------------------
+
+template <class T>
+Json written(const T& value) {
+  if constexpr (std::is_enum_v<T>) {
+    return word(value);
+  } else {
+    return value;
+  }
+}
+inline Json written(const ScalarType& value) { return name_of(value); }
+template <int N>
+Json written(const glm::vec<N, double>& value) {
+  Json list = Json::array();
+  for (int i = 0; i < N; ++i)
+    list.push_back(value[i]);
+  return list;
+}
+template <class T>
+Json written(const std::optional<T>& value) {
+  return value ? written(*value) : Json(nullptr);
+}
+
+// ---- visitors of the key table
+// --------------------------------------------------------------------------------------
+
+/// Fills fields from one JSON object and refuses keys that no field took.
+class Reader {
+public:
+  Reader(const Json& object, std::string path) : object_(object), path_(std::move(path)) {
+    if (!object.is_object())
+      refuse(path_.empty() ? "scene" : path_, object, "give an object { … }");
+  }
+
+  template <class T>
+  void key(const char* name, T& field, const char*, Range range = Range::any) {
+    if (const Json* value = take(name))
+      read(*value, full(name), field, range);
+  }
+
+  void endian(const char* name, std::optional<bool>& field, const char*) {
+    const Json* value = take(name);
+    if (value == nullptr)
+      return;
+    if (*value != "little" && *value != "big")
+      refuse(full(name), *value, "give little or big");
+    field = *value == "big";
+  }
+
+  template <class T, class Keys>
+  void section(const char* name, T& field, const char*, Keys keys) {
+    if (const Json* value = take(name))
+      read_object(*value, full(name), field, keys);
+  }
+
+  template <class T, class Keys>
+  void option(const char* name, std::optional<T>& field, const char*, Keys keys) {
+    if (const Json* value = take(name))
+      read_object(*value, full(name), field.emplace(), keys);
+  }
+
+  template <class T, class Keys>
+  void list(const char* name, std::vector<T>& field, const char*, Keys keys) {
+    const Json* value = take(name);
+    if (value == nullptr)
+      return;
+    if (!value->is_array())
+      refuse(full(name), *value, "give a list of objects");
+    for (std::size_t i = 0; i < value->size(); ++i) {
+      read_object((*value)[i], full(name) + "[" + std::to_string(i) + "]", field.emplace_back(), keys);
+    }
+  }
+
+  void segments(const char* name, std::optional<std::size_t>& field, const char*) {
+    const Json* value = take(name);
+    if (value == nullptr)
+      return;
+    if (*value == "adaptive") {
+      field = std::nullopt;
+    } else if (value->is_string()) {
+      refuse(full(name), *value, "give a whole number or \"adaptive\"");
+    } else {
+      read(*value, full(name), field.emplace(), Range::any);
+    }
+  }
+
+  /// One warp, or a list of warps.
+  void warps(const char* name, std::vector<Warp>& field) {
+    const Json* value = take(name);
+    if (value == nullptr)
+      return;
+    if (value->is_array()) {
+      for (std::size_t i = 0; i < value->size(); ++i) {
+        read_warp((*value)[i], full(name) + "[" + std::to_string(i) + "]", field.emplace_back());
+      }
+    } else {
+      read_warp(*value, full(name), field.emplace_back());
+    }
+  }
+
+  void finish() const {
+    for (const auto& [name, value] : object_.items()) {
+      if (known_.count(name) != 0)
+        continue;
+      const auto nearest = nearest_word(name, {known_.begin(), known_.end()});
+      throw UsageError(full(name) + " is not a scene key" +
+                       (nearest ? "; did you mean " + full(*nearest) + "?"
+                                : "; known here: " + join({known_.begin(), known_.end()})));
+    }
+  }
+
+private:
+  static void read_warp(const Json& json, const std::string& path, Warp& warp) {
+    Reader reader(json, path);
+    std::vector<std::string> kinds;
+    for (const WarpInfo& info : warp_infos())
+      kinds.push_back(info.kind);
+    const Json* kind = reader.take("kind");
+    if (kind == nullptr)
+      throw UsageError(path + ".kind is missing; give one of " + join(kinds));
+    if (!kind->is_string() || !make_warp(kind->get<std::string>()))
+      refuse(path + ".kind", *kind, "give one of " + join(kinds));
+    warp = *make_warp(kind->get<std::string>());
+    warp_keys(reader, warp);
+    reader.finish();
+  }
+
+  template <class T, class Keys>
+  static void read_object(const Json& json, const std::string& path, T& field, Keys keys) {
+    Reader reader(json, path);
+    keys(reader, field);
+    reader.finish();
+  }
+
+  const Json* take(const char* name) {
+    known_.insert(name);
+    const auto found = object_.find(name);
+    return found == object_.end() || found->is_null() ? nullptr : &*found;
+  }
+
+  std::string full(const std::string& name) const { return path_.empty() ? name : path_ + "." + name; }
+
+  const Json& object_;
+  std::string path_;
+  std::set<std::string> known_;
+};
+
+/// Makes one JSON object from fields.
+struct Writer {
+  Json object = Json::object();
+
+  template <class T>
+  void key(const char* name, const T& field, const char*, Range = Range::any) {
+    object[name] = written(field);
+  }
+  void endian(const char* name, const std::optional<bool>& field, const char*) {
+    object[name] = field ? Json(*field ? "big" : "little") : Json(nullptr);
+  }
+  template <class T, class Keys>
+  void section(const char* name, const T& field, const char*, Keys keys) {
+    Writer writer;
+    keys(writer, field);
+    object[name] = writer.object;
+  }
+  template <class T, class Keys>
+  void option(const char* name, const std::optional<T>& field, const char* help, Keys keys) {
+    if (field)
+      section(name, *field, help, keys);
+    else
+      object[name] = nullptr;
+  }
+  void segments(const char* name, const std::optional<std::size_t>& field, const char*) {
+    object[name] = field ? Json(*field) : Json("adaptive");
+  }
+  void warps(const char* name, const std::vector<Warp>& field) {
+    Json entries = Json::array();
+    for (const Warp& warp : field) {
+      Writer writer;
+      writer.object["kind"] = kind_of(warp);
+      warp_keys(writer, warp);
+      entries.push_back(writer.object);
+    }
+    object[name] = entries.size() == 1 ? entries[0] : entries;
+  }
+  template <class T, class Keys>
+  void list(const char* name, const std::vector<T>& field, const char*, Keys keys) {
+    Json entries = Json::array();
+    for (const T& entry : field) {
+      Writer writer;
+      keys(writer, entry);
+      entries.push_back(writer.object);
+    }
+    object[name] = entries;
+  }
+};
+
+/// Collects names and help texts.
+struct Lister {
+  std::vector<std::pair<std::string, std::string>>& keys;
+  std::string prefix;
+
+  template <class T>
+  void key(const char* name, const T&, const char* help, Range = Range::any) {
+    keys.emplace_back(prefix + name, help);
+  }
+  void endian(const char* name, const std::optional<bool>&, const char* help) {
+    keys.emplace_back(prefix + name, help);
+  }
+  template <class T, class Keys>
+  void section(const char* name, const T& field, const char*, Keys visit_keys) {
+    Lister lister{keys, prefix + name + "."};
+    visit_keys(lister, field);
+  }
+  template <class T, class Keys>
+  void option(const char* name, const std::optional<T>&, const char* help, Keys visit_keys) {
+    section(name, T{}, help, visit_keys);
+  }
+  void segments(const char* name, const std::optional<std::size_t>&, const char* help) {
+    keys.emplace_back(prefix + name, help);
+  }
+  void warps(const char* name, const std::vector<Warp>&) {
+    for (const WarpInfo& info : warp_infos()) {
+      Lister lister{keys, std::string(name) + "(" + info.kind + ")."};
+      const Warp warp = *make_warp(info.kind);
+      warp_keys(lister, warp);
+    }
+  }
+  template <class T, class Keys>
+  void list(const char* name, const std::vector<T>&, const char*, Keys visit_keys) {
+    Lister lister{keys, prefix + name + "[]."};
+    const T entry{};
+    visit_keys(lister, entry);
+  }
+};
+
+// ---- changing single keys
+// -------------------------------------------------------------------------------------------
+
+/// Groups of which only one member may stand in a section; setting one by --set removes the others.
+struct Alternatives {
+  const char* section;
+  std::vector<std::vector<const char*>> members;
+};
+
+inline const std::vector<Alternatives>& alternatives() {
+  static const std::vector<Alternatives> groups = {
+      {"volume", {{"file"}, {"phantom"}}},
+      {"transfer", {{"preset"}, {"points"}}},
+      {"camera", {{"position"}, {"azimuth", "elevation", "roll"}}},
+      {"image", {{"file"}, {"checkerboard"}, {"testcard"}}},
+  };
+  return groups;
+}
+
+inline void remove_alternatives(Json& section, const std::string& section_name, const std::string& key) {
+  if (!section.is_object())
+    return; // nothing set in it yet
+  for (const Alternatives& group : alternatives()) {
+    if (section_name != group.section)
+      continue;
+    const auto has = [&](const std::vector<const char*>& member) {
+      return std::any_of(member.begin(), member.end(), [&](const char* name) { return key == name; });
+    };
+    if (std::none_of(group.members.begin(), group.members.end(), has))
+      continue;
+    for (const auto& member : group.members) {
+      if (has(member))
+        continue;
+      for (const char* name : member)
+        section.erase(name);
+    }
+  }
+}
+
+inline Json value_of(const std::string& text) {
+  Json value = Json::parse(text, nullptr, false);
+  return value.is_discarded() ? Json(text) : value;
+}
+
+inline std::vector<std::string> split_key(const std::string& key) {
+  std::vector<std::string> parts(1);
+  for (const char c : key) {
+    if (c == '.' || c == '[') {
+      if (!parts.back().empty())
+        parts.emplace_back();
+    } else if (c != ']') {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+inline void apply(Json& scene, const KeyValue& change) {
+  const std::vector<std::string> parts = split_key(change.key);
+  Json* node = &scene;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    if (node->is_array()) {
+      const std::size_t index = std::strtoul(parts[i].c_str(), nullptr, 10);
+      if (parts[i].find_first_not_of("0123456789") != std::string::npos || index >= node->size()) {
+        throw UsageError("--set " + change.key + ": the list has " + std::to_string(node->size()) +
+                         " entries; name one from 0, or set the whole list");
+      }
+      node = &(*node)[index];
+    } else {
+      if (!node->is_object() && !node->is_null()) {
+        throw UsageError("--set " + change.key + ": '" + parts[i] + "' is inside a value that has no keys");
+      }
+      node = &(*node)[parts[i]];
+    }
+  }
+  if (!node->is_object() && !node->is_null())
+    throw UsageError("--set " + change.key + ": set the whole list or value instead");
+  const Json value = value_of(change.value);
+  if (parts.size() == 2 && !value.is_null())
+    remove_alternatives(*node, parts[0], parts[1]);
+  (*node)[parts.back()] = value;
+}
+
+inline bool has_value(const Json& json, const char* section, const char* key) {
+  const auto found = json.find(section);
+  return found != json.end() && found->is_object() && found->contains(key) && !(*found)[key].is_null();
+}
+
+inline Json parse_text(const std::string& text, const std::string& source) {
+  try {
+    return Json::parse(text, nullptr, true, true);
+  } catch (const Json::parse_error& error) {
+    std::size_t line = 1;
+    std::size_t column = 1;
+    for (std::size_t i = 0; i + 1 < error.byte && i < text.size(); ++i) {
+      ++column;
+      if (text[i] == '\n') {
+        ++line;
+        column = 1;
+      }
+    }
+    throw UsageError(source + ": not valid JSON at line " + std::to_string(line) + ", column " +
+                     std::to_string(column) + "; look for a missing comma, quote or bracket");
+  }
+}
+
+} // namespace slicelens::keys_json
