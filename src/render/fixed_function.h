@@ -35,9 +35,9 @@ public:
   void draw(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target,
             const Progress& progress);
 
-  /// Draws the triangles into `target`, which is cleared to transparent black, each over what was drawn
-  /// before it (`over`) or under it. `clip_from_position`: OpenGL clip coordinates of the corners' positions.
-  /// State is restored.
+  /// Draws the triangles into `target`, cleared to transparent black before: back to front each goes over
+  /// what was drawn before it, front to back under it. `clip_from_position`: OpenGL clip coordinates of the
+  /// corners' positions. State is restored.
   void draw(const FixedFunctionTexture& texture, const glm::mat4& clip_from_position, Order order,
             const gl::Target& target, const Progress& progress);
 

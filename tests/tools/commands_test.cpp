@@ -61,8 +61,9 @@ TEST_CASE("the version and the lists") {
   CHECK(done(place, {"--version"}).out == std::string("slicelens ") + SLICELENS_VERSION + "\n");
   CHECK_THAT(done(place, {"list", "contexts"}).out,
              Contains("osmesa") && Contains("egl") && Contains("window"));
-  CHECK_THAT(done(place, {"list", "pipelines"}).out,
-             Contains("slices") && Contains("rays") && Contains("reference"));
+  CHECK_THAT(done(place, {"list", "pipelines"}).out, Contains("slices") && Contains("tessellated") &&
+                                                         Contains("fragment") && Contains("fixed-function") &&
+                                                         Contains("rays") && Contains("reference"));
   CHECK_THAT(done(place, {"list", "presets"}).out,
              Contains("CT-Bone") && Contains("MR-Angio") && Contains("fog"));
   CHECK_THAT(done(place, {"list", "keys"}).out, Contains("render.spacing") && Contains("transfer.points"));
@@ -234,4 +235,18 @@ TEST_CASE("render --verbose says where the time went, on stderr") {
   REQUIRE(outcome.status == 0);
   CHECK(outcome.out == "a.png\n");
   CHECK_THAT(outcome.err, Contains("load") && Contains("upload") && Contains("draw") && Contains("write"));
+}
+
+TEST_CASE("fixed function and shaders are compared in one call") {
+  // Their contexts have different profiles, so each side opens its own.
+  const Workplace place;
+  put(place / "s.json", small_scene);
+  const Outcome outcome =
+      done(place, {"compare", "s.json", "--set-a", "render.pipeline=fixed-function", "--set-b",
+                   "render.classification=pre", "--set-b", "render.target=rgba8"});
+  CHECK(Json::parse(outcome.out)["max_abs"].get<double>() <= 2.0 / 255 + 1e-6);
+  CHECK(done(place, {"render", "s.json", "--set", "render.pipeline=fixed-function", "-o", "f.png"}).out ==
+        "f.png\n");
+  CHECK(done(place, {"render", "f.png", "-o", "again.png"}).out == "again.png\n");
+  CHECK(contents(place / "again.png").size() > 100);
 }

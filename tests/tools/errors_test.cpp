@@ -64,6 +64,12 @@ TEST_CASE("wrong scenes end with 2 and name file, key and value") {
   check_refused(place, set("render.spacing=nan"), 2, {"render.spacing"});
   check_refused(place, set("render.mode=mipp"), 2, {"render.mode", "mipp", "mip"});
   check_refused(place, set("render.pipeline=slice"), 2, {"render.pipeline", "slices"});
+  check_refused(place,
+                {"render", "s.json", "--set", "render.pipeline=fixed-function", "--set", "render.mode=mip"},
+                2, {"fixed-function", "render.mode", "dvr"});
+  check_refused(place,
+                {"render", "s.json", "--set", "render.classification=pre", "--set", "render.shading=diffuse"},
+                2, {"render.classification", "render.shading"});
   check_refused(place, set("render.size=[0,5]"), 2, {"render.size"});
   check_refused(place, set("render.size=[5]"), 2, {"render.size"});
   check_refused(place, set("transfer.preset=CT-Bon"), 2, {"CT-Bon"});

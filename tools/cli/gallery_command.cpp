@@ -100,6 +100,13 @@ std::vector<GalleryScene> scenes_of(const GalleryOptions& options) {
   return scenes;
 }
 
+/// The scene's own pipeline where that draws slices; else the one that slices its warp.
+Pipeline slicing_pipeline(const Scene& scene) {
+  if (draws_slices(scene.render.pipeline))
+    return scene.render.pipeline;
+  return scene.warp.empty() ? Pipeline::slices : Pipeline::tessellated;
+}
+
 /// Keeps the last volume, which neighbouring scenes often share.
 class Gallery {
 public:
@@ -111,7 +118,7 @@ public:
     entry.title = scene.input.scene.title.empty() ? scene.name : scene.input.scene.title;
     entry.scene_json = scene_to_json(scene.input.scene);
     entry.command = "slicelens render " + scene.argument + " -o " + scene.name + ".png";
-    const RenderResult slices = draw(scene.input, Pipeline::slices, progress);
+    const RenderResult slices = draw(scene.input, slicing_pipeline(scene.input.scene), progress);
     const RenderResult rays = draw(scene.input, Pipeline::rays, progress);
     entry.slices_picture = save(slices.image, scene.name + "_slices.png");
     entry.rays_picture = save(rays.image, scene.name + "_rays.png");
