@@ -5,6 +5,7 @@
 #include "render/fixed_function.h"
 #include "render/rays.h"
 #include "render/reference.h"
+#include "render/scene_overlay.h"
 #include "render/slices.h"
 #include "scene/names.h"
 
@@ -132,6 +133,11 @@ gl::Context open_context_for(const Scene& scene) {
 
 RenderResult render(const PreparedScene& prepared, gl::Context* context, const Progress& progress) {
   RenderResult result;
+  if (prepared.scene.overlay.stack != 0) {
+    result.image = draw_stack_from_the_side(prepared);
+    result.renderer = "CPU, lines";
+    return result;
+  }
   if (prepared.scene.render.pipeline == Pipeline::reference) {
     Stopwatch watch;
     result.image = render_reference(prepared, progress);
@@ -145,6 +151,7 @@ RenderResult render(const PreparedScene& prepared, gl::Context* context, const P
   if (prepared.scene.render.mode == Mode::xray)
     show_line_integrals(result.image, prepared.xray_scale);
   put_over_background(result.image, prepared.scene.render.background);
+  draw_overlays(result.image, prepared);
   return result;
 }
 

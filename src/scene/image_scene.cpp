@@ -38,16 +38,6 @@ void image_render_keys(Visitor& visit, Settings& s) {
 }
 
 template <class Visitor, class Settings>
-void overlay_keys(Visitor& visit, Settings& s) {
-  visit.key("wireframe", s.wireframe, "none, segments (of the tessellation) or triangles");
-  visit.key("outline", s.outline, "inner (red) and outer (green) edge of each lens");
-  visit.key("lattice", s.lattice, "cells along the longer edge of a lattice carried through the lens; 0: none");
-  visit.key("magnification", s.magnification, "opacity of false colours of the local magnification",
-            Range::unit);
-  visit.key("line_width", s.line_width, "pixels", Range::positive);
-}
-
-template <class Visitor, class Settings>
 void image_scene_keys(Visitor& visit, Settings& s) {
   visit.key("title", s.title, "shown in galleries and reports");
   visit.section("image", s.image, "what is looked at", [](auto& v, auto& x) { image_keys(v, x); });
@@ -116,13 +106,6 @@ const std::vector<EnumName<LensPipeline>>& names_of(LensPipeline) {
   return names;
 }
 
-const std::vector<EnumName<Wireframe>>& names_of(Wireframe) {
-  static const std::vector<EnumName<Wireframe>> names = {{Wireframe::none, "none"},
-                                                         {Wireframe::segments, "segments"},
-                                                         {Wireframe::triangles, "triangles"}};
-  return names;
-}
-
 void validate(const ImageScene& scene) {
   const ImageSettings& image = scene.image;
   const int given = (image.file ? 1 : 0) + (image.checkerboard ? 1 : 0) + (image.testcard ? 1 : 0);
@@ -144,12 +127,7 @@ void validate(const ImageScene& scene) {
     throw UsageError("render.lookup_size must be from 2 to 4096 texels, not " +
                      std::to_string(scene.render.lookup_size));
   }
-  if (scene.overlay.lattice > 1024) {
-    throw UsageError("overlay.lattice must be at most 1024 cells, not " +
-                     std::to_string(scene.overlay.lattice));
-  }
-  if (scene.overlay.line_width > 100)
-    throw UsageError("overlay.line_width must be at most 100 pixels");
+  validate(scene.overlay);
   if (scene.overlay.wireframe != Wireframe::none && scene.render.pipeline != LensPipeline::tessellated) {
     throw UsageError("overlay.wireframe shows the triangles of pipeline 'tessellated'; '" +
                      word(scene.render.pipeline) + "' has none");

@@ -128,6 +128,24 @@ void warp_keys(Visitor& visit, AnyWarp& warp) {
 }
 
 template <class Visitor, class Settings>
+void overlay_keys(Visitor& visit, Settings& s) {
+  visit.key("wireframe", s.wireframe, "none, segments (of the tessellation) or triangles");
+  visit.key("outline", s.outline, "inner (red) and outer (green) edge of each lens");
+  visit.key("lattice", s.lattice,
+            "cells along the longer edge of a lattice carried through the lens; 0: none");
+  visit.key("magnification", s.magnification, "opacity of false colours of the local magnification",
+            Range::unit);
+  visit.key("line_width", s.line_width, "pixels", Range::positive);
+}
+
+template <class Visitor, class Settings>
+void scene_overlay_keys(Visitor& visit, Settings& s) {
+  overlay_keys(visit, s);
+  visit.key("stack", s.stack,
+            "degrees the camera goes aside to show the slices themselves (LaMar's Figure 7); 0: the volume");
+}
+
+template <class Visitor, class Settings>
 void scene_keys(Visitor& visit, Settings& s) {
   visit.key("title", s.title, "shown in galleries and reports");
   visit.section("volume", s.volume, "what is rendered", [](auto& v, auto& x) { volume_keys(v, x); });
@@ -138,6 +156,8 @@ void scene_keys(Visitor& visit, Settings& s) {
                 [](auto& v, auto& x) { render_keys(v, x); });
   visit.section("light", s.light, "for shading", [](auto& v, auto& x) { light_keys(v, x); });
   visit.warps("warp", s.warp);
+  visit.section("overlay", s.overlay, "what is drawn over it",
+                [](auto& v, auto& x) { scene_overlay_keys(v, x); });
   visit.list("clip", s.clip, "clipping planes", [](auto& v, auto& x) { clip_keys(v, x); });
 }
 

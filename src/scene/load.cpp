@@ -9,8 +9,7 @@ namespace slicelens {
 
 namespace fs = std::filesystem;
 
-fs::path resolve_file(const std::string& file, const std::vector<fs::path>& folders,
-                      const std::string& key) {
+fs::path resolve_file(const std::string& file, const std::vector<fs::path>& folders, const std::string& key) {
   const fs::path path(file);
   if (path.is_absolute() || folders.empty())
     return path;

@@ -14,8 +14,7 @@ namespace slicelens {
 /// The file that `volume.file` names: itself when absolute, else the first of `folders` it exists in, else
 /// relative to the first. Throws FileError naming the places when it exists in none of them.
 /// `key` is the scene key that the message proposes to set.
-std::filesystem::path resolve_file(const std::string& file,
-                                   const std::vector<std::filesystem::path>& folders,
+std::filesystem::path resolve_file(const std::string& file, const std::vector<std::filesystem::path>& folders,
                                    const std::string& key = "volume.file");
 
 /// The reader's request for a scene's volume; `settings.file` must be set.

@@ -105,4 +105,10 @@ const std::vector<EnumName<LensBorder>>& names_of(LensBorder) {
   return names;
 }
 
+const std::vector<EnumName<Wireframe>>& names_of(Wireframe) {
+  static const std::vector<EnumName<Wireframe>> names = {
+      {Wireframe::none, "none"}, {Wireframe::segments, "segments"}, {Wireframe::triangles, "triangles"}};
+  return names;
+}
+
 } // namespace slicelens

@@ -2,6 +2,9 @@
 
 #include "core/errors.h"
 #include "core/text.h"
+#include "scene/names.h"
+
+#include <cmath>
 
 namespace slicelens {
 
@@ -123,6 +126,16 @@ void use_pipeline_defaults(RenderSettings& render, bool classification_given, bo
     render.opacity_correction = OpacityCorrection::frame;
 }
 
+void validate(const OverlaySettings& overlay) {
+  if (overlay.lattice > 1024) {
+    throw UsageError("overlay.lattice must be at most 1024 cells, not " + std::to_string(overlay.lattice));
+  }
+  if (overlay.line_width > 100)
+    throw UsageError("overlay.line_width must be at most 100 pixels");
+  if (!(std::abs(overlay.stack) <= 90))
+    throw UsageError("overlay.stack must be from -90 to 90 degrees, not " + number_text(overlay.stack));
+}
+
 void validate(const Scene& scene) {
   validate_volume(scene.volume);
   if (scene.transfer.preset && scene.transfer.points) {
@@ -143,6 +156,19 @@ void validate(const Scene& scene) {
       throw UsageError("pipeline 'slices' draws no warp; '" + kind_of(warp) +
                        "' can be drawn by tessellated, fragment, fixed-function, rays or reference");
     }
+  }
+  validate(scene.overlay);
+  const bool meshed =
+      scene.render.pipeline == Pipeline::tessellated || scene.render.pipeline == Pipeline::fixed_function;
+  for (const Warp& warp : scene.warp) {
+    if (!std::get<LamarLens>(warp).homogeneous && !meshed) {
+      throw UsageError("homogeneous false is about corners of triangles; pipeline '" +
+                       word(scene.render.pipeline) + "' has none, give tessellated or fixed-function");
+    }
+  }
+  if (scene.overlay.wireframe != Wireframe::none && !meshed) {
+    throw UsageError("overlay.wireframe shows the triangles of a lens; pipeline '" +
+                     word(scene.render.pipeline) + "' has none, give tessellated or fixed-function");
   }
   for (const ClipSettings& plane : scene.clip) {
     if (glm::length(plane.normal) == 0)

@@ -103,6 +103,19 @@ struct ClipSettings {
   ClipSpace space = ClipSpace::texture;
 };
 
+enum class Wireframe { none, segments, triangles };
+
+/// Section `overlay`: lines and false colours drawn over the picture.
+struct OverlaySettings {
+  Wireframe wireframe = Wireframe::none;
+  bool outline = false;
+  std::size_t lattice = 0;  ///< cells along the longer edge; 0: none
+  double magnification = 0; ///< opacity of the false colours
+  double line_width = 1.5;  ///< pixels
+  double stack =
+      0; ///< volumes only: degrees the camera goes aside to show the slices themselves; 0: the volume
+};
+
 struct Scene {
   std::string title;
   VolumeSettings volume;
@@ -112,6 +125,7 @@ struct Scene {
   LightSettings light;
   std::vector<ClipSettings> clip;
   std::vector<Warp> warp; ///< in forward order (METHODS §0)
+  OverlaySettings overlay;
 };
 
 /// Whether a pipeline blends slices (and not rays).
@@ -121,6 +135,9 @@ bool draws_slices(Pipeline pipeline);
 /// pre, target rgba8 and opacity correction frame.
 void use_pipeline_defaults(RenderSettings& render, bool classification_given, bool target_given,
                            bool correction_given);
+
+/// Throws UsageError naming the key.
+void validate(const OverlaySettings& overlay);
 
 /// Checks what single keys cannot say: alternatives given together, combinations that make no sense.
 /// Throws UsageError naming the keys.

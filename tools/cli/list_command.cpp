@@ -67,15 +67,18 @@ void list_figures() {
     row(file.name, scene_from_json(file.text, file.name).title);
 }
 
-void list_warps() { std::printf("no warps are part of this version\n"); }
+void list_warps() {
+  for (const WarpInfo& warp : warp_infos())
+    row(warp.kind, warp.description + "; pipelines " + join(warp.pipelines));
+}
 
 } // namespace
 
 void run_list(const ListOptions& options) {
   const std::vector<std::pair<std::string, std::function<void()>>> lists = {
-      {"contexts", list_contexts}, {"figures", list_figures},     {"keys", list_keys},
-      {"lens-keys", list_lens_keys}, {"phantoms", list_phantoms}, {"pipelines", list_pipelines}, {"presets", list_presets},
-      {"warps", list_warps}};
+      {"contexts", list_contexts},   {"figures", list_figures},   {"keys", list_keys},
+      {"lens-keys", list_lens_keys}, {"phantoms", list_phantoms}, {"pipelines", list_pipelines},
+      {"presets", list_presets},     {"warps", list_warps}};
   std::vector<std::string> names;
   for (const auto& [name, list] : lists) {
     if (name == options.what) {
