@@ -53,8 +53,7 @@ Bar draw_magnification(Image& image, const PreparedPicture& prepared) {
   double high = 1;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const double m =
-          magnification_at(prepared, picture_from_pixel(prepared, {x + 0.5, y + 0.5}));
+      const double m = magnification_at(prepared, picture_from_pixel(prepared, {x + 0.5, y + 0.5}));
       values.push_back(std::log2(m));
       low = std::min(low, m);
       if (std::isfinite(m))
@@ -85,9 +84,10 @@ void draw_overlays(Image& image, const PreparedPicture& prepared) {
                overlay.line_width, lattice_color);
   }
   if (overlay.wireframe != Wireframe::none) {
-    draw_lines(image,
-               in_pixels(prepared, mesh_edges(picture_mesh(prepared), overlay.wireframe == Wireframe::triangles)),
-               overlay.line_width, wireframe_color);
+    draw_lines(
+        image,
+        in_pixels(prepared, mesh_edges(picture_mesh(prepared), overlay.wireframe == Wireframe::triangles)),
+        overlay.line_width, wireframe_color);
   }
   for (const LensTessellation& lens : prepared.lenses) {
     if (!overlay.outline)

@@ -41,7 +41,8 @@ template <class Visitor, class Settings>
 void overlay_keys(Visitor& visit, Settings& s) {
   visit.key("wireframe", s.wireframe, "none, segments (of the tessellation) or triangles");
   visit.key("outline", s.outline, "inner (red) and outer (green) edge of each lens");
-  visit.key("lattice", s.lattice, "cells along the longer edge of a lattice carried through the lens; 0: none");
+  visit.key("lattice", s.lattice,
+            "cells along the longer edge of a lattice carried through the lens; 0: none");
   visit.key("magnification", s.magnification, "opacity of false colours of the local magnification",
             Range::unit);
   visit.key("line_width", s.line_width, "pixels", Range::positive);
@@ -117,9 +118,8 @@ const std::vector<EnumName<LensPipeline>>& names_of(LensPipeline) {
 }
 
 const std::vector<EnumName<Wireframe>>& names_of(Wireframe) {
-  static const std::vector<EnumName<Wireframe>> names = {{Wireframe::none, "none"},
-                                                         {Wireframe::segments, "segments"},
-                                                         {Wireframe::triangles, "triangles"}};
+  static const std::vector<EnumName<Wireframe>> names = {
+      {Wireframe::none, "none"}, {Wireframe::segments, "segments"}, {Wireframe::triangles, "triangles"}};
   return names;
 }
 

@@ -37,8 +37,8 @@ struct ImageRenderSettings {
   Filter filter = Filter::linear;
   Target target = Target::rgba32f;
   TransferTexture image_texture = TransferTexture::rgba32f;
-  std::size_t lookup_size = 256;           ///< texels along the longer edge of the table
-  glm::dvec4 background{0};                ///< not associated; shows where there is no image
+  std::size_t lookup_size = 256; ///< texels along the longer edge of the table
+  glm::dvec4 background{0};      ///< not associated; shows where there is no image
   ContextName context = ContextName::automatic;
 };
 
@@ -53,8 +53,9 @@ struct OverlaySettings {
   double line_width = 1.5;  ///< pixels
 };
 
-/// Positions are texture coordinates of the image: [0,1]², origin at the top left corner, y downwards, as pictures store
-/// their rows. A lens' center is (x, y, 0.5). Lengths are fractions of the image's longer edge.
+/// Positions are texture coordinates of the image: [0,1]², origin at the top left corner, y downwards, as
+/// pictures store their rows. A lens' center is (x, y, 0.5). Lengths are fractions of the image's longer
+/// edge.
 struct ImageScene {
   std::string title;
   ImageSettings image;
@@ -73,9 +74,9 @@ inline constexpr std::size_t max_image_pixels = std::size_t{1} << 26;
 /// none, affine coordinates without the pipeline that has them.
 void validate(const ImageScene& scene);
 
-/// Reads a 2D scene as scene_from_json reads a 3D one, after applying `changes`. A scene without `warp` has one
-/// lens with its defaults, one without `image` shows the test card; `warp.kind` may be left out; `center` is
-/// [x, y] or [x, y, 0.5]. Throws UsageError, also for keys that mean nothing in a picture (depth_inner,
+/// Reads a 2D scene as scene_from_json reads a 3D one, after applying `changes`. A scene without `warp` has
+/// one lens with its defaults, one without `image` shows the test card; `warp.kind` may be left out; `center`
+/// is [x, y] or [x, y, 0.5]. Throws UsageError, also for keys that mean nothing in a picture (depth_inner,
 /// depth_outer).
 ImageScene image_scene_from_json(const std::string& text, const std::string& source,
                                  const std::vector<KeyValue>& changes = {});

@@ -1,5 +1,5 @@
-// Between JSON and the key tables (scene/keys.h): reading, writing, listing, and changing single keys. For the
-// scene readers of this folder only.
+// Between JSON and the key tables (scene/keys.h): reading, writing, listing, and changing single keys. For
+// the scene readers of this folder only.
 #pragma once
 
 #include "core/errors.h"
@@ -109,7 +109,8 @@ void read(const Json& json, const std::string& path, Enum& value, Range) {
 }
 
 /// An array of exactly `count` entries.
-inline void require_array(const Json& json, const std::string& path, std::size_t count, const std::string& of) {
+inline void require_array(const Json& json, const std::string& path, std::size_t count,
+                          const std::string& of) {
   if (!json.is_array() || json.size() != count)
     refuse(path, json, "give a list of " + std::to_string(count) + " " + of);
 }
