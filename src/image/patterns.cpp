@@ -91,14 +91,16 @@ void discs(glm::dvec3& color, const glm::dvec2& d, double half) {
 }
 
 void letter(Image& image, int left, int top, int right, int bottom) {
-  const std::string lines[] = {"LAMAR, HAMANN, JOY 2001", "A MAGNIFICATION LENS", "FOR INTERACTIVE VOLUME",
-                               "VISUALIZATION", "0123456789 +-*/=<>", "THE QUICK BROWN FOX JUMPS"};
+  const std::string lines[] = {"LAMAR, HAMANN, JOY 2001", "A MAGNIFICATION LENS",
+                               "FOR INTERACTIVE VOLUME",  "VISUALIZATION",
+                               "0123456789 +-*/=<>",      "THE QUICK BROWN FOX JUMPS"};
   int row = top + 2;
   for (int i = 0; row + letter_height <= bottom; ++i, row += letter_height + 3) {
     std::string line = lines[i % 6];
     while (!line.empty() && left + 2 + text_width(line) > right)
       line.pop_back();
-    draw_text(image, left + 2, row, line, i % 2 == 0 ? glm::vec3(0.1F, 0.1F, 0.35F) : glm::vec3(0.5F, 0.05F, 0.05F));
+    draw_text(image, left + 2, row, line,
+              i % 2 == 0 ? glm::vec3(0.1F, 0.1F, 0.35F) : glm::vec3(0.5F, 0.05F, 0.05F));
   }
 }
 

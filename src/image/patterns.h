@@ -1,5 +1,5 @@
-// Pictures made by formula, for showing what a lens does. The same size gives the same values on every machine
-// up to rounding.
+// Pictures made by formula, for showing what a lens does. The same size gives the same values on every
+// machine up to rounding.
 #pragma once
 
 #include "image/image.h"
@@ -11,9 +11,9 @@ namespace slicelens {
 Image checkerboard(int width, int height, int squares);
 
 /// A colour picture with detail of all sizes: a hue wheel with 36 spokes (Siemens star) in the middle, a zone
-/// plate in the top left quarter, gratings of 16 to 2 pixels at the top right, rows of discs that shrink to one
-/// pixel at the bottom left, lettering at the bottom right, and a fine grid over a smooth colour gradient behind
-/// them. Opaque, values in [0,1].
+/// plate in the top left quarter, gratings of 16 to 2 pixels at the top right, rows of discs that shrink to
+/// one pixel at the bottom left, lettering at the bottom right, and a fine grid over a smooth colour gradient
+/// behind them. Opaque, values in [0,1].
 Image test_card(int width, int height);
 
 } // namespace slicelens

@@ -60,9 +60,8 @@ Image load_image(const ImageSettings& settings, const std::vector<std::filesyste
 
 PreparedPicture prepare_picture(ImageScene scene, Image source) {
   PreparedPicture prepared;
-  const auto size =
-      scene.render.size.value_or(std::array<std::size_t, 2>{static_cast<std::size_t>(source.width),
-                                                            static_cast<std::size_t>(source.height)});
+  const auto size = scene.render.size.value_or(std::array<std::size_t, 2>{
+      static_cast<std::size_t>(source.width), static_cast<std::size_t>(source.height)});
   if (size[0] * size[1] > max_image_pixels) {
     throw UsageError("the image has " + std::to_string(size[0]) + "×" + std::to_string(size[1]) +
                      " pixels; choose a smaller picture with render.size");

@@ -1,5 +1,5 @@
-// A picture under LaMar's lenses: the 2D lens by every pipeline. The image is the only slice, at t_z = ½, of a
-// volume seen face on, so the lens, its tessellation and its shader are those of the volume.
+// A picture under LaMar's lenses: the 2D lens by every pipeline. The image is the only slice, at t_z = ½, of
+// a volume seen face on, so the lens, its tessellation and its shader are those of the volume.
 #pragma once
 
 #include "gl/context.h"
@@ -44,7 +44,8 @@ glm::dvec2 image_from_picture(const PreparedPicture& prepared, const glm::dvec2&
 /// where the map's derivative is singular.
 double magnification_at(const PreparedPicture& prepared, const glm::dvec2& t);
 
-/// The triangles that the scene's pipeline draws: the tessellated lens, or covers with the undisturbed pieces first.
+/// The triangles that the scene's pipeline draws: the tessellated lens, or covers with the undisturbed pieces
+/// first.
 LensMesh picture_mesh(const PreparedPicture& prepared);
 
 /// The displacement u − t, texture coordinates, on a grid of size[0]×size[1] texels that spans [low, high] of
@@ -69,8 +70,8 @@ void draw_overlays(Image& image, const PreparedPicture& prepared);
 struct PictureResult {
   Image image; ///< over the scene's background, with overlays; metadata is empty
   std::string renderer;
-  std::string version;   ///< empty for the reference
-  std::string context;   ///< likewise
+  std::string version; ///< empty for the reference
+  std::string context; ///< likewise
   std::size_t triangles = 0;
   double draw_seconds = 0;
 };

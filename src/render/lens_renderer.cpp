@@ -189,8 +189,8 @@ PictureResult render_picture(const PreparedPicture& prepared, gl::Context* conte
     if (context == nullptr)
       throw GraphicsError("pipeline '" + word(prepared.scene.render.pipeline) + "' needs a graphics context");
     const gl::Functions& gl = context->functions();
-    const gl::Target target = gl::make_target(gl, prepared.width, prepared.height,
-                                              texture_format(prepared.scene.render.target));
+    const gl::Target target =
+        gl::make_target(gl, prepared.width, prepared.height, texture_format(prepared.scene.render.target));
     const PictureRenderer renderer(gl, prepared);
     result.draw_seconds = gl::elapsed_seconds(gl, [&] { renderer.draw(target); });
     result.image = make_image(target.width, target.height);

@@ -33,9 +33,9 @@ public:
   /// restored.
   void draw(const gl::Target& target) const;
 
-  /// The same in two steps, for drawing many frames. bind() binds target, textures and buffers and leaves them
-  /// bound; draw_bound() draws the triangles and nothing else: one call, or two where undisturbed triangles
-  /// have a program of their own.
+  /// The same in two steps, for drawing many frames. bind() binds target, textures and buffers and leaves
+  /// them bound; draw_bound() draws the triangles and nothing else: one call, or two where undisturbed
+  /// triangles have a program of their own.
   void bind(const gl::Target& target) const;
   void draw_bound() const;
 
@@ -43,7 +43,8 @@ public:
 
 private:
   void upload(const PreparedPicture& prepared);
-  void set_uniforms(const gl::Program& program, const PreparedPicture& prepared, const WarpTable& table) const;
+  void set_uniforms(const gl::Program& program, const PreparedPicture& prepared,
+                    const WarpTable& table) const;
 
   const gl::Functions* gl_;
   gl::Program plain_; ///< divides the homogeneous coordinate

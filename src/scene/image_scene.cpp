@@ -189,6 +189,7 @@ std::vector<std::pair<std::string, std::string>> list_image_scene_keys() {
   Lister lister{keys, ""};
   const ImageScene scene;
   image_scene_keys(lister, scene);
+  std::erase_if(keys, [](const auto& key) { return key.first.find(".depth_") != std::string::npos; });
   return keys;
 }
 

@@ -104,7 +104,8 @@ void append_border(std::vector<Piece>& pieces, const Footprint& at, const std::v
 
 /// The undisturbed region between a circle's outer ring and its bounding square (LaMar Fig. 6) in the fewest
 /// triangles: each edge of the ring with the square's corner in whose quadrant it lies, and where that corner
-/// changes, each side of the square passed with the ring's corner there (nothing where that touches the side).
+/// changes, each side of the square passed with the ring's corner there (nothing where that touches the
+/// side).
 void append_square_rest(std::vector<Piece>& pieces, const Footprint& at) {
   const double outer = at.lens.map.outer;
   const std::size_t n = at.lens.ring.size();

@@ -60,11 +60,11 @@ struct LensClip {
 LensMesh tessellate_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
                           const BoxSpace& space, const LensClip& clip);
 
-/// Polygons to draw the slice with when the lens is evaluated at each fragment: the slice outside the footprints' squares, and
-/// each touched footprint's square whole, whether or not it lies in the box (the fragments test where they look). Cut by
-/// planes in object space. Every vertex looks at itself.
-LensMesh cover_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses, const BoxSpace& space,
-                     const std::vector<Plane>& object_clip);
+/// Polygons to draw the slice with when the lens is evaluated at each fragment: the slice outside the
+/// footprints' squares, and each touched footprint's square whole, whether or not it lies in the box (the
+/// fragments test where they look). Cut by planes in object space. Every vertex looks at itself.
+LensMesh cover_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
+                     const BoxSpace& space, const std::vector<Plane>& object_clip);
 
 /// The texture radius that n homogeneous segments give at radius r of the border, inner ≤ r ≤ outer.
 double tessellated_radius(LensBorder border, double minification, double inner, double outer,

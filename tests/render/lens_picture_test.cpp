@@ -39,6 +39,10 @@ Image ramp(int width, int height) {
   return image;
 }
 
+/// A square's spokes run along diagonals. About the picture's centre they would meet pixel centres exactly,
+/// and softpipe, which rounds edges in floats, may then draw such a pixel by neither triangle.
+const char* const off_center = "warp.center=[0.5013,0.4971]";
+
 /// The largest difference in R and G.
 double largest_shift(const Image& a, const Image& b) {
   double largest = 0;
@@ -102,15 +106,15 @@ TEST_CASE("the zoom region is the picture magnified about the lens centre") {
 TEST_CASE("outside the lens the picture is untouched") {
   gl::Context context = test_context();
   const Image card = test_card(120, 120);
-  const Image picture =
-      drawn(image_scene({"warp.center=[0.3,0.3]", "warp.inner=0.1", "warp.outer=0.2"}), card, context);
+  const Image picture = drawn(image_scene({off_center, "warp.inner=0.1", "warp.outer=0.2"}), card, context);
   double largest = 0;
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 120; ++x) {
-      if (std::hypot(x + 0.5 - 36, y + 0.5 - 36) < 24)
+      if (std::hypot(x + 0.5 - 0.5013 * 120, y + 0.5 - 0.4971 * 120) < 24)
         continue;
       for (int c = 0; c < 4; ++c)
-        largest = std::max(largest, std::abs(static_cast<double>(channel(picture, x, y, c)) - channel(card, x, y, c)));
+        largest = std::max(largest,
+                           std::abs(static_cast<double>(channel(picture, x, y, c)) - channel(card, x, y, c)));
     }
   }
   CHECK(largest <= 1e-4);
@@ -121,7 +125,7 @@ TEST_CASE("the tessellated border converges to the exact one at second order") {
   const Image source = ramp(256, 256);
   for (const std::string border : {"linear", "cubic"}) {
     const std::vector<std::string> lens = {"warp.shape=square", "warp.border=" + border, "warp.inner=0.2",
-                                           "warp.outer=0.4"};
+                                           off_center, "warp.outer=0.4"};
     const auto with = [&](std::vector<std::string> more) {
       more.insert(more.end(), lens.begin(), lens.end());
       return drawn(image_scene(more), source, context);
@@ -167,8 +171,8 @@ TEST_CASE("a table of the warp comes nearer to the exact lens with its size") {
   const Image exact = with("render.pipeline=fragment");
   std::vector<double> errors;
   for (const std::string size : {"32", "128", "512"}) {
-    ImageScene scene = image_scene({"render.pipeline=lookup", "render.lookup_size=" + size, "warp.inner=0.15",
-                                    "warp.outer=0.4"});
+    ImageScene scene = image_scene(
+        {"render.pipeline=lookup", "render.lookup_size=" + size, "warp.inner=0.15", "warp.outer=0.4"});
     errors.push_back(largest_shift(drawn(scene, source, context), exact));
   }
   CAPTURE(errors);
@@ -194,10 +198,10 @@ TEST_CASE("affine texture coordinates give LaMar's wrong picture, homogeneous on
 }
 
 TEST_CASE("segment edges join the vertices of the rings, each once") {
-  const PreparedPicture prepared = prepare_picture(
-      image_scene({"warp.angular_segments=12", "warp.radial_segments=3", "warp.border=linear",
-                   "warp.inner=0.1", "warp.outer=0.25", "warp.center=[0.4,0.5]"}),
-      make_image(200, 100));
+  const PreparedPicture prepared =
+      prepare_picture(image_scene({"warp.angular_segments=12", "warp.radial_segments=3", "warp.border=linear",
+                                   "warp.inner=0.1", "warp.outer=0.25", "warp.center=[0.4,0.5]"}),
+                      make_image(200, 100));
   const std::vector<Polyline> edges = mesh_edges(picture_mesh(prepared), false);
   const auto radius = [](const glm::dvec3& t) { // pixels over the longer edge
     return std::hypot(t.x - 0.4, (t.y - 0.5) / 2);
@@ -228,8 +232,7 @@ TEST_CASE("lattice lines are shown where the lens shows the lattice") {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (const glm::dvec3& point : lines[i]) {
       const glm::dvec2 u = image_from_picture(prepared, glm::dvec2(point));
-      const double expected =
-          i < 9 ? static_cast<double>(i) / 8 : static_cast<double>(i - 9) / 4;
+      const double expected = i < 9 ? static_cast<double>(i) / 8 : static_cast<double>(i - 9) / 4;
       largest = std::max(largest, std::abs((i < 9 ? u.x : u.y) - expected));
       moved = std::max(moved, std::abs((i < 9 ? point.x : point.y) - expected));
     }

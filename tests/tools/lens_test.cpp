@@ -23,8 +23,9 @@ void check_refused(const Workplace& place, const Words& call, int status, const 
 
 TEST_CASE("lens: a picture carries its scene and is drawn again from it") {
   const Workplace place;
-  REQUIRE(place.run({"lens", "testcard", "-o", "card.png", "--set", "image.testcard.size=[60,40]", "--set",
-                     "warp=[]"})
+  REQUIRE(place
+              .run({"lens", "testcard", "-o", "card.png", "--set", "image.testcard.size=[60,40]", "--set",
+                    "warp=[]"})
               .status == 0);
   const Outcome first =
       place.run({"lens", "card.png", "-o", "a.png", "--set", "image.file=card.png", "--set", "warp=null",
@@ -44,8 +45,8 @@ TEST_CASE("lens: any picture is taken as it is") {
   const Workplace place;
   put(place / "s.json", small_scene);
   REQUIRE(place.run({"render", "s.json", "-o", "volume.png"}).status == 0);
-  const Outcome outcome =
-      place.run({"lens", "volume.png", "-o", "lens.png", "--set", "warp.zoom=2", "--set", "warp.center=[0.3,0.7]"});
+  const Outcome outcome = place.run(
+      {"lens", "volume.png", "-o", "lens.png", "--set", "warp.zoom=2", "--set", "warp.center=[0.3,0.7]"});
   CAPTURE(outcome.err);
   CHECK(outcome.status == 0);
   const Outcome printed = place.run({"lens", "volume.png", "-o", "x.png", "--print-scene"});

@@ -11,8 +11,8 @@ namespace slicelens::bench {
 
 namespace {
 
-/// One column of the paper's Table 2, as fractions of its baselines: 456 pictures per second on the Onyx2, 1067 on the
-/// GeForce2.
+/// One column of the paper's Table 2, as fractions of its baselines: 456 pictures per second on the Onyx2,
+/// 1067 on the GeForce2.
 struct PaperRow {
   const char* shape;
   const char* border;
@@ -53,7 +53,8 @@ Turns measure(const gl::Functions& gl, const PictureRenderer& baseline, const Pi
       gl.Flush(); // a picture is shown before the next one starts
     }
   };
-  return in_turn(gl, runs, [&] { draw(baseline); }, [&] { draw(lens); });
+  return in_turn(
+      gl, runs, [&] { draw(baseline); }, [&] { draw(lens); });
 }
 
 } // namespace
@@ -63,11 +64,12 @@ void run_lens2d(gl::Context& context, const BenchOptions& options) {
   const gl::Target target = gl::make_target(gl, 500, 500, GL_RGBA8);
   const PictureRenderer baseline(gl, prepared_row("[]", "tessellated"));
   const double plain = median(measure(gl, baseline, baseline, target, options.runs).a) / frames;
-  std::printf("\n## lens2d: LaMar's Table 2\n\n500² window, lens 250², zoom region 186², border 32 pixels, "
-              "zoom 4; RGBA8 image and target, linear filter; %d measurements of %d pictures, in turn with the "
-              "baseline. Baseline (two triangles): %.0f pictures a second. Fractions of its rate by wall clock "
-              "and by processor time of all threads; fragment and lookup by processor time.\n",
-              options.runs, frames, 1 / plain);
+  std::printf(
+      "\n## lens2d: LaMar's Table 2\n\n500² window, lens 250², zoom region 186², border 32 pixels, "
+      "zoom 4; RGBA8 image and target, linear filter; %d measurements of %d pictures, in turn with the "
+      "baseline. Baseline (two triangles): %.0f pictures a second. Fractions of its rate by wall clock "
+      "and by processor time of all threads; fragment and lookup by processor time.\n",
+      options.runs, frames, 1 / plain);
   print_heading({"lens", "wall clock", "processor", "Onyx2", "GeForce2", "triangles", "ns a triangle",
                  "fragment", "lookup"});
   for (const PaperRow& row : paper_rows) {

@@ -84,8 +84,7 @@ ImageSceneInput image_scene_input(const LensOptions& options) {
 std::string hash_of(const ImageSceneInput& input, const std::string& source) {
   if (!input.scene.image.file)
     return "";
-  const std::string hash =
-      sha256_of({resolve_file(*input.scene.image.file, input.folders, "image.file")});
+  const std::string hash = sha256_of({resolve_file(*input.scene.image.file, input.folders, "image.file")});
   if (!input.expected_sha256.empty() && hash != input.expected_sha256) {
     throw FileError(*input.scene.image.file, "is not the image that " + source +
                                                  " was made from (SHA-256 differs); name the right one with "
@@ -117,8 +116,7 @@ void run_lens(const LensOptions& options) {
   }
   const PixelDepth depth = pixel_depth(options.output, options.depth); // refuse a wrong name before the work
   const std::string hash = hash_of(input, options.input);
-  const PreparedPicture prepared =
-      prepare_picture(input.scene, load_image(input.scene.image, input.folders));
+  const PreparedPicture prepared = prepare_picture(input.scene, load_image(input.scene.image, input.folders));
   std::optional<gl::Context> context;
   if (input.scene.render.pipeline != LensPipeline::reference) {
     Scene wanted;

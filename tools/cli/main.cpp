@@ -61,14 +61,15 @@ void add_render(CLI::App& app, RenderOptions& options, std::function<void()>& ru
 }
 
 void add_lens(CLI::App& app, LensOptions& options, std::function<void()>& run) {
-  CLI::App& command =
-      *app.add_subcommand("lens", "put LaMar's magnification lens on a picture, a checkerboard or a test card");
-  command.footer("A SCENE is a JSON file with a section image; an IMAGE that this command wrote is drawn again from its "
-                 "scene.\nPositions are fractions of the image from its top left corner, lengths fractions of its "
-                 "longer edge.\n\n"
-                 "  slicelens lens photo.jpg -o lens.png --set warp.center=[0.3,0.6] --set warp.zoom=3\n"
-                 "  slicelens lens checkerboard -o grid.png --set warp.border=linear --wireframe --outline\n"
-                 "  slicelens list lens-keys");
+  CLI::App& command = *app.add_subcommand(
+      "lens", "put LaMar's magnification lens on a picture, a checkerboard or a test card");
+  command.footer(
+      "A SCENE is a JSON file with a section image; an IMAGE that this command wrote is drawn again from its "
+      "scene.\nPositions are fractions of the image from its top left corner, lengths fractions of its "
+      "longer edge.\n\n"
+      "  slicelens lens photo.jpg -o lens.png --set warp.center=[0.3,0.6] --set warp.zoom=3\n"
+      "  slicelens lens checkerboard -o grid.png --set warp.border=linear --wireframe --outline\n"
+      "  slicelens list lens-keys");
   command.add_option("input", options.input, "IMAGE, SCENE, checkerboard or testcard")
       ->required()
       ->type_name("");
@@ -154,7 +155,9 @@ void add_phantom(CLI::App& app, PhantomOptions& options, std::function<void()>& 
 
 void add_list(CLI::App& app, ListOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand("list", "what this program knows");
-  command.add_option("what", options.what, "contexts, figures, keys, lens-keys, phantoms, pipelines, presets or warps")
+  command
+      .add_option("what", options.what,
+                  "contexts, figures, keys, lens-keys, phantoms, pipelines, presets or warps")
       ->type_name("");
   command.callback([&options, &run] { run = [&options] { run_list(options); }; });
 }
