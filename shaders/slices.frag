@@ -53,6 +53,13 @@ void main() {
 #else
   vec3 texture_coordinate = object_coordinate;
 #endif
+#if defined(LEVELS) && LEVELS > 1
+#if defined(WARP_TESSELLATED)
+  choose_level(homogeneous_coordinate.w);
+#elif defined(WARP_FRAGMENT)
+  choose_level(magnification(object_coordinate));
+#endif
+#endif
   float value = displayed_value(texture_coordinate);
 #if defined(MODE_MIP)
   result = vec4(unit_from_value.x * value + unit_from_value.y, 0.0, 0.0, 1.0);

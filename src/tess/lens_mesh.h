@@ -20,7 +20,7 @@ struct LensVertex {
 /// Which region a triangle belongs to (LaMar Fig. 7: green, blue, red).
 enum class LensRegion : std::uint8_t { normal, border, zoom };
 
-/// Triangles of one slice.
+/// Triangles of one slice. Those of a convex piece follow each other as a fan about its first corner.
 struct LensMesh {
   std::vector<LensVertex> vertices;
   std::vector<std::uint32_t> triangles; ///< three indices each
@@ -60,11 +60,11 @@ struct LensClip {
 LensMesh tessellate_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
                           const BoxSpace& space, const LensClip& clip);
 
-/// Polygons to draw the slice with when the lens is evaluated at each fragment: the slice outside the footprints' squares, and
-/// each touched footprint's square whole, whether or not it lies in the box (the fragments test where they look). Cut by
-/// planes in object space. Every vertex looks at itself.
-LensMesh cover_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses, const BoxSpace& space,
-                     const std::vector<Plane>& object_clip);
+/// Polygons to draw the slice with when the lens is evaluated at each fragment: the slice outside the
+/// footprints' squares, and each touched footprint's square whole, whether or not it lies in the box (the
+/// fragments test where they look). Cut by planes in object space. Every vertex looks at itself.
+LensMesh cover_slice(const Polygon& polygon, const std::vector<LensTessellation>& lenses,
+                     const BoxSpace& space, const std::vector<Plane>& object_clip);
 
 /// The texture radius that n homogeneous segments give at radius r of the border, inner ≤ r ≤ outer.
 double tessellated_radius(LensBorder border, double minification, double inner, double outer,
