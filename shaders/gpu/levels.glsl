@@ -34,11 +34,11 @@ float sample_level = float(LEVELS - 1);
 void choose_level(float q) { sample_level = level_of(q, float(LEVELS - 1), log_zoom); }
 vec3 level_step(vec3 voxel) { return voxel * exp2(sample_level); }
 
-// A loop that runs once or never, where an `if` would do: software rasterisers compute both sides of an `if`, and of
-// the levels at most two have weight.
+// Of the levels at most two have weight. (Loops that run once or never would spare a software rasteriser the others, but
+// Mesa's takes minutes to compile a gradient's seven samples of them.)
 #define WEIGHT(k) max(1.0 - abs(sample_level - float(k)), 0.0)
 #define LEVEL_TEXEL(k, name) filtered_texel(name, t * level_scale[k].xyz + level_offset[k].xyz)
-#define ADD_LEVEL(k, name) for (int n = 0; n < int(ceil(WEIGHT(k))); ++n) sum += WEIGHT(k) * LEVEL_TEXEL(k, name);
+#define ADD_LEVEL(k, name) if (WEIGHT(k) > 0.0) sum += WEIGHT(k) * LEVEL_TEXEL(k, name);
 
 float sample_texel(vec3 t) {
   float sum = 0.0;
