@@ -2,7 +2,8 @@
 
 #include "tess/homogeneous.h"
 
-#include <algorithm>
+#include <cmath>
+#include <tuple>
 
 namespace slicelens {
 
@@ -17,6 +18,56 @@ void append_fan(LensMesh& mesh, const LensPolygon& polygon, LensRegion region) {
   }
 }
 
+/// A polygon's two sides of a boundary.
+struct Halves {
+  LensPolygon below;
+  LensPolygon above;
+};
+
+/// Where the edge crosses the boundary, computed from the same end whichever way round the polygon goes, so
+/// that neighbours get the same corner.
+LensVertex crossing(const LensVertex& a, const LensVertex& b, double va, double vb) {
+  if (std::tie(b.position.x, b.position.y, b.position.z) < std::tie(a.position.x, a.position.y, a.position.z))
+    return crossing(b, a, vb, va);
+  const double x = va / (va - vb);
+  return {glm::mix(a.position, b.position, x), glm::mix(a.texture, b.texture, x)};
+}
+
+/// Corners nearer to the boundary than rounding can tell (texture coordinates) are on it: a slice that lies
+/// in a boundary would else be cut to pieces by noise.
+constexpr double on_boundary = 1e-12;
+
+/// Cuts at texture coordinate `c` of `axis`: S − c·q < 0 below.
+Halves cut(const LensPolygon& polygon, int axis, double c) {
+  std::vector<double> values;
+  bool some_below = false;
+  bool some_above = false;
+  for (const LensVertex& vertex : polygon) {
+    const double value = vertex.texture[axis] - c * vertex.texture.w;
+    values.push_back(std::abs(value) <= on_boundary * vertex.texture.w ? 0 : value);
+    some_below = some_below || values.back() < 0;
+    some_above = some_above || values.back() > 0;
+  }
+  if (!some_below)
+    return {{}, polygon};
+  if (!some_above)
+    return {polygon, {}};
+  Halves halves;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const std::size_t next = (i + 1) % polygon.size();
+    if (values[i] <= 0)
+      halves.below.push_back(polygon[i]);
+    if (values[i] >= 0)
+      halves.above.push_back(polygon[i]);
+    if ((values[i] < 0 && values[next] > 0) || (values[i] > 0 && values[next] < 0)) {
+      const LensVertex corner = crossing(polygon[i], polygon[next], values[i], values[next]);
+      halves.below.push_back(corner);
+      halves.above.push_back(corner);
+    }
+  }
+  return halves;
+}
+
 /// Cuts `rest` at the boundaries of `axis` and goes on with the next axis. `tile` counts the tiles passed on
 /// earlier axes.
 void split(LensPolygon rest, LensRegion region, const TileCuts& cuts, std::size_t axis, std::size_t tile,
@@ -27,31 +78,14 @@ void split(LensPolygon rest, LensRegion region, const TileCuts& cuts, std::size_
   }
   const std::vector<double>& planes = cuts.planes[axis];
   const std::size_t next_stride = stride * (planes.size() + 1);
-  glm::dvec3 normal(0);
-  normal[static_cast<int>(axis)] = 1;
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    const TextureHalfSpace above = homogeneous(Plane{normal, planes[i]});
-    double low = 0;
-    double high = 0;
-    for (const LensVertex& vertex : rest) {
-      const double value = glm::dot(above.coefficients, vertex.texture);
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-    if (low >= 0)
-      continue; // nothing below this boundary: not even a corner's area
-    if (high <= 0) {
-      split(std::move(rest), region, cuts, axis + 1, tile + i * stride, next_stride, tiles);
-      return;
-    }
-    const LensPolygon below = clip(rest, homogeneous(Plane{-normal, -planes[i]}));
-    if (!below.empty())
-      split(below, region, cuts, axis + 1, tile + i * stride, next_stride, tiles);
-    rest = clip(rest, above);
-    if (rest.empty())
-      return;
+  for (std::size_t i = 0; i < planes.size() && rest.size() >= 3; ++i) {
+    Halves halves = cut(rest, static_cast<int>(axis), planes[i]);
+    if (halves.below.size() >= 3)
+      split(std::move(halves.below), region, cuts, axis + 1, tile + i * stride, next_stride, tiles);
+    rest = std::move(halves.above);
   }
-  split(std::move(rest), region, cuts, axis + 1, tile + planes.size() * stride, next_stride, tiles);
+  if (rest.size() >= 3)
+    split(std::move(rest), region, cuts, axis + 1, tile + planes.size() * stride, next_stride, tiles);
 }
 
 } // namespace

@@ -19,7 +19,7 @@ PreparedScene head_scene() {
       rising(100, 1500, 0.3));
 }
 
-using Edge = std::array<double, 6>;
+using Edge = std::array<float, 6>; // as the driver gets them
 
 /// Total length of the edges that do not meet an edge of equal corners: the outline, and any T-junction.
 double open_length(const std::vector<LensMesh>& meshes) {
@@ -27,8 +27,8 @@ double open_length(const std::vector<LensMesh>& meshes) {
   for (const LensMesh& mesh : meshes) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
-      glm::dvec3 a = mesh.vertices[mesh.triangles[i]].position;
-      glm::dvec3 b = mesh.vertices[mesh.triangles[next]].position;
+      glm::vec3 a(mesh.vertices[mesh.triangles[i]].position);
+      glm::vec3 b(mesh.vertices[mesh.triangles[next]].position);
       if (std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z))
         std::swap(a, b);
       ++count[{a.x, a.y, a.z, b.x, b.y, b.z}];
@@ -37,7 +37,7 @@ double open_length(const std::vector<LensMesh>& meshes) {
   double length = 0;
   for (const auto& [e, times] : count) {
     if (times == 1)
-      length += glm::length(glm::dvec3(e[3] - e[0], e[4] - e[1], e[5] - e[2]));
+      length += static_cast<double>(glm::length(glm::vec3(e[3] - e[0], e[4] - e[1], e[5] - e[2])));
   }
   return length;
 }
@@ -89,7 +89,7 @@ TEST_CASE("tiles share out a slice once, with equal corners where they meet") {
     }
     INFO("x = " << x);
     CHECK(sum == Approx(area(whole)).epsilon(1e-12));
-    CHECK(open_length(tiles) == Approx(open_length({whole})).epsilon(1e-9));
+    CHECK(open_length(tiles) == Approx(open_length({whole})).epsilon(1e-5)); // lengths of floats
   }
 }
 
