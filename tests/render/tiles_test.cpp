@@ -122,7 +122,8 @@ TEST_CASE("tiles change no picture", "[one-driver]") {
       const double decibels =
           psnr(picture(whole, context), picture(changed(whole, {"render.tiles=" + tiles}), context));
       INFO(text << tiles << ": " << decibels << " dB");
-      CHECK(decibels >= 60); // the rounding of coordinates; a seam of one texel costs 20 dB and more
+      CHECK(decibels >=
+            70); // rounding of coordinates: 83 to 160 dB; one missing voxel of overlap gives 46 to 60
     }
   }
 }
