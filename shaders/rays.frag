@@ -30,6 +30,9 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #ifdef LENS_COUNT
   vec3 t = texture_from_object(p);
   if (!in_volume(t) || !in_data_planes(t)) return gathered;
+#if defined(LEVELS) && LEVELS > 1
+  choose_level(magnification(p));
+#endif
 #else
   vec3 t = p;
 #endif

@@ -66,6 +66,13 @@ void main() {
 #endif
   result = sample_color;
 #else
+#if defined(LEVELS) && LEVELS > 1
+#if defined(WARP_TESSELLATED)
+  choose_level(homogeneous_coordinate.w);
+#elif defined(WARP_FRAGMENT)
+  choose_level(magnification(object_coordinate));
+#endif
+#endif
 #if defined(MODE_MIP)
   float value = displayed_value(texture_coordinate);
   result = vec4(unit_from_value.x * value + unit_from_value.y, 0.0, 0.0, 1.0);

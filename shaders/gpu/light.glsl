@@ -10,10 +10,15 @@ uniform bool two_sided;
 
 // `t`: where the data is looked at; `p`: where it is shown.
 vec3 shade(vec3 color, vec3 t, vec3 p, vec3 to_eye) {
-#ifdef GRADIENT_FORWARD
-  vec3 gradient = forward_gradient(t, voxel);
+#if defined(LEVELS) && LEVELS > 1
+  vec3 h = level_step(voxel);
 #else
-  vec3 gradient = central_gradient(t, voxel);
+  vec3 h = voxel;
+#endif
+#ifdef GRADIENT_FORWARD
+  vec3 gradient = forward_gradient(t, h);
+#else
+  vec3 gradient = central_gradient(t, h);
 #endif
 #ifdef LENS_COUNT
   gradient = displayed_gradient(gradient, p);

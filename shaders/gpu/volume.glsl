@@ -3,31 +3,38 @@
 // FILTER_LINEAR_EXACT takes the eight voxels one by one and weighs them in float, where drivers filter with weights
 // of 8 bits; otherwise the texture's own filter (nearest or linear) is used.
 
-uniform sampler3D volume_texture;
 uniform vec2 value_from_texel;  // data value = x · texel + y
 
 #ifdef FILTER_LINEAR_EXACT
-float texel_at(ivec3 i, ivec3 last) { return texelFetch(volume_texture, clamp(i, ivec3(0), last), 0).r; }
+float texel_at(sampler3D voxels, ivec3 i, ivec3 last) { return texelFetch(voxels, clamp(i, ivec3(0), last), 0).r; }
 #endif
 
 // What the texture holds at t: values in its own unit, which filtering leaves alone.
-float sample_texel(vec3 t) {
+float filtered_texel(sampler3D voxels, vec3 t) {
 #ifdef FILTER_LINEAR_EXACT
-  ivec3 size = textureSize(volume_texture, 0);
+  ivec3 size = textureSize(voxels, 0);
   vec3 position = clamp(t * vec3(size) - 0.5, vec3(-0.5), vec3(size) - 0.5);
   vec3 lower = floor(position);
   vec3 f = position - lower;
   ivec3 i = ivec3(lower);
   ivec3 last = size - 1;
-  float v00 = mix(texel_at(i, last), texel_at(i + ivec3(1, 0, 0), last), f.x);
-  float v10 = mix(texel_at(i + ivec3(0, 1, 0), last), texel_at(i + ivec3(1, 1, 0), last), f.x);
-  float v01 = mix(texel_at(i + ivec3(0, 0, 1), last), texel_at(i + ivec3(1, 0, 1), last), f.x);
-  float v11 = mix(texel_at(i + ivec3(0, 1, 1), last), texel_at(i + ivec3(1, 1, 1), last), f.x);
+  float v00 = mix(texel_at(voxels, i, last), texel_at(voxels, i + ivec3(1, 0, 0), last), f.x);
+  float v10 = mix(texel_at(voxels, i + ivec3(0, 1, 0), last), texel_at(voxels, i + ivec3(1, 1, 0), last), f.x);
+  float v01 = mix(texel_at(voxels, i + ivec3(0, 0, 1), last), texel_at(voxels, i + ivec3(1, 0, 1), last), f.x);
+  float v11 = mix(texel_at(voxels, i + ivec3(0, 1, 1), last), texel_at(voxels, i + ivec3(1, 1, 1), last), f.x);
   return mix(mix(v00, v10, f.y), mix(v01, v11, f.y), f.z);
 #else
-  return texture(volume_texture, t).r;
+  return textureLod(voxels, t, 0.0).r;
 #endif
 }
+
+#ifdef LEVELS
+#include "lib/levels.glsl"
+#include "gpu/levels.glsl"
+#else
+uniform sampler3D volume_texture;
+float sample_texel(vec3 t) { return filtered_texel(volume_texture, t); }
+#endif
 
 // The data at a point, as texel and as value. Gradients (lib/gradient.glsl) are taken in the data and carried through a
 // lens by its Jacobian (gpu/warp.glsl), so points are the data's own here.

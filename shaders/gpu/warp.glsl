@@ -24,6 +24,17 @@ vec3 displayed_gradient(vec3 gradient, vec3 p) {
   return ((gradient / box_size) * jacobian) * box_size;
 }
 
+// How much of the lenses' magnification r/f(r) the point p is shown with (lib/levels.glsl); they do not overlap.
+float magnification(vec3 p) {
+  vec3 b = p * box_size;
+  float q = 1.0;
+  for (int i = LENS_COUNT - 1; i >= 0; --i) {
+    q *= lamar_magnification(lenses[i], b);
+    b = lamar_texture_from_object(lenses[i], b);
+  }
+  return q;
+}
+
 bool in_volume(vec3 t) { return all(greaterThanEqual(t, vec3(0.0))) && all(lessThanEqual(t, vec3(1.0))); }
 
 // User clipping planes of the data: dot(plane.xyz, t) + plane.w ≥ 0.

@@ -124,6 +124,17 @@ vec3 lamar_texture_from_object(LamarMap lens, vec3 p) {
   return place.axis_point + ratio * place.offset;
 }
 
+// Local tangential magnification q = r/f(r), the homogeneous weight of LaMar's vertices: 1 outside the lens.
+real lamar_magnification(LamarMap lens, vec3 p) {
+  LamarPlace place = lamar_place(lens, p);
+  real m = lamar_minification(lens, abs(place.depth)).x;
+  if (place.radius >= lens.outer || abs(place.depth) >= lens.depth_outer) {
+    return real(1);
+  }
+  LamarProfile f = lamar_profile(lens.border, m, lens.inner, lens.outer, place.radius);
+  return place.radius > lens.inner ? place.radius / f.value : real(1) / m;
+}
+
 // Its derivative: column j is the derivative by p_j. Exact; at the creases of a profile one of the two sides.
 mat3 lamar_jacobian(LamarMap lens, vec3 p) {
   LamarPlace place = lamar_place(lens, p);

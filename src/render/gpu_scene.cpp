@@ -2,6 +2,7 @@
 
 #include "render/pre_classification.h"
 #include "scene/names.h"
+#include "volume/pyramid.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -77,12 +78,11 @@ void encode(const Volume& volume, const Coding& coding, std::size_t first, std::
 }
 
 template <class Texel>
-gl::Texture upload_volume(const gl::Functions& gl, const PreparedScene& prepared, GLenum format,
+gl::Texture upload_volume(const gl::Functions& gl, const Volume& volume, Filter filter, GLenum format,
                           const Coding& coding, const Progress& progress) {
-  const Volume& volume = prepared.volume;
   gl::TextureSpec spec;
   spec.format = format;
-  spec.filter = prepared.scene.render.filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
+  spec.filter = filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
   const std::array<int, 3> size = {static_cast<int>(std::min<std::size_t>(volume.dims[0], INT32_MAX)),
                                    static_cast<int>(std::min<std::size_t>(volume.dims[1], INT32_MAX)),
                                    static_cast<int>(std::min<std::size_t>(volume.dims[2], INT32_MAX))};
@@ -117,6 +117,36 @@ gl::Texture upload_transfer(const gl::Functions& gl, const PreparedScene& prepar
                              std::as_bytes(std::span(table.rgba)));
 }
 
+/// Codes between whole numbers, for the means of coarser levels: as many as the type has to spare. Whole
+/// numbers stay exact where coding_of holds them exactly.
+template <class U>
+Coding finer(const Coding& coding, const Volume& volume) {
+  const double range = volume.max - volume.min;
+  const double codes = std::floor(std::numeric_limits<U>::max() * coding.scale / std::max(range, 1.0));
+  return coding.scale == 1 && codes > 1 ? Coding{1 / codes, coding.offset} : coding;
+}
+
+/// One texture, or those of the brick plan.
+template <class Texel>
+void upload_all(const gl::Functions& gl, const PreparedScene& prepared, GLenum format, const Coding& coding,
+                GpuScene& scene, const Progress& progress) {
+  const RenderSettings& render = prepared.scene.render;
+  if (!is_bricked(render)) {
+    scene.volume = upload_volume<Texel>(gl, prepared.volume, render.filter, format, coding, progress);
+    return;
+  }
+  scene.plan = plan_bricks(prepared);
+  for (const Brick& brick : scene.plan.bricks) {
+    const Volume& level = brick.level == 0 ? prepared.volume : prepared.pyramid[brick.level - 1];
+    scene.bricks.push_back(brick.size == level.dims
+                               ? upload_volume<Texel>(gl, level, render.filter, format, coding, {})
+                               : upload_volume<Texel>(gl, crop(level, brick.first, brick.size), render.filter,
+                                                      format, coding, {}));
+    report_progress(progress, "upload",
+                    static_cast<double>(scene.bricks.size()) / static_cast<double>(scene.plan.bricks.size()));
+  }
+}
+
 } // namespace
 
 VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type) {
@@ -142,24 +172,30 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
     coding = coding_of<std::uint8_t>(volume);
     levels = 255;
     texel_bytes = 1;
-    scene.volume = upload_volume<std::uint8_t>(gl, prepared, GL_R8, coding, progress);
+    if (prepared.scene.render.levels > 1)
+      coding = finer<std::uint8_t>(coding, volume);
+    upload_all<std::uint8_t>(gl, prepared, GL_R8, coding, scene, progress);
   } else if (scene.format == VolumeTexture::r16) {
     coding = coding_of<std::uint16_t>(volume);
     levels = 65535;
     texel_bytes = 2;
-    scene.volume = upload_volume<std::uint16_t>(gl, prepared, GL_R16, coding, progress);
+    if (prepared.scene.render.levels > 1)
+      coding = finer<std::uint16_t>(coding, volume);
+    upload_all<std::uint16_t>(gl, prepared, GL_R16, coding, scene, progress);
   } else {
     // Floats keep 24 bits of the distance from the smallest value, which saves large offsets (and 64-bit
     // integers).
     coding = {1, volume.type == ScalarType::f32 ? 0 : volume.min};
-    scene.volume = upload_volume<float>(gl, prepared, GL_R32F, coding, progress);
+    upload_all<float>(gl, prepared, GL_R32F, coding, scene, progress);
   }
   scene.value_from_texel = glm::vec2(coding.scale * levels, coding.offset);
   scene.texture = word(scene.format);
   scene.transfer = upload_transfer(gl, prepared, scene);
-  scene.bytes =
-      voxel_count(volume) * texel_bytes +
+  const std::size_t transfer_bytes =
       scene.transfer_texels * (prepared.scene.render.transfer_texture == TransferTexture::rgba8 ? 4 : 16);
+  scene.whole_bytes = voxel_count(volume) * texel_bytes + transfer_bytes;
+  scene.bytes = is_bricked(prepared.scene.render) ? brick_voxels(scene.plan) * texel_bytes + transfer_bytes
+                                                  : scene.whole_bytes;
   return scene;
 }
 

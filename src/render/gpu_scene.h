@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gl/texture.h"
+#include "render/bricks.h"
 #include "render/prepare.h"
 
 namespace slicelens {
@@ -15,7 +16,10 @@ struct GpuScene {
   glm::vec2 transfer_from_texel{1, 0};        ///< table coordinate = x · texel + y
   VolumeTexture format = VolumeTexture::r32f; ///< what `automatic` became
   std::string texture;                        ///< what holds the volume, in words: "r16"
-  std::size_t bytes = 0;                      ///< of both textures
+  std::size_t bytes = 0;                      ///< of all textures
+  std::size_t whole_bytes = 0; ///< of the volume in one texture at full resolution, and the transfer function
+  BrickPlan plan;              ///< where the volume is bricked (render.tiles, render.levels)
+  std::vector<gl::Texture> bricks; ///< of plan.bricks; `volume` is empty then
   std::size_t transfer_texels = 0;
 };
 

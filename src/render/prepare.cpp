@@ -1,7 +1,11 @@
 #include "render/prepare.h"
 
 #include "core/errors.h"
+#include "render/bricks.h"
 #include "scene/camera.h"
+#include "volume/pyramid.h"
+
+#include <cmath>
 
 #include <algorithm>
 #include <cmath>
@@ -60,17 +64,28 @@ void prepare_warps(PreparedScene& prepared) {
         "' needs a volume with axes at right angles; this one is sheared (a tilted gantry, for instance)");
   }
   prepared.lenses.clear();
+  prepared.log_zoom = 0;
   glm::dvec3 low(0);
   glm::dvec3 high = prepared.space.size;
   for (const Warp& warp : prepared.scene.warp) {
     const auto& lens = std::get<LamarLens>(warp);
     prepared.lenses.push_back(
         prepare_lens(lens, prepared.space, prepared.warp_view, pixels_per_unit(prepared, lens)));
+    prepared.log_zoom = std::max(prepared.log_zoom, std::log(lens.zoom));
     include_footprint(prepared.lenses.back().map, low, high);
   }
   refuse_overlap(prepared.lenses);
   prepared.object_low = texture_from_box(prepared.space, low);
   prepared.object_high = texture_from_box(prepared.space, high);
+}
+
+/// The levels above the first. They depend on the data alone, so those there are stay.
+void prepare_pyramid(PreparedScene& prepared) {
+  const std::size_t count = prepared.scene.render.levels - 1;
+  prepared.pyramid.resize(std::min(prepared.pyramid.size(), count));
+  while (prepared.pyramid.size() < count)
+    prepared.pyramid.push_back(
+        half_size(prepared.pyramid.empty() ? prepared.volume : prepared.pyramid.back()));
 }
 
 } // namespace
@@ -93,6 +108,9 @@ void prepare_again(PreparedScene& prepared) {
     planes.push_back(pull_back(world, prepared.box.world_from_texture));
   }
   prepare_warps(prepared);
+  if (is_bricked(scene.render))
+    (void)plan_bricks(prepared); // refuses tiles and levels that the volume has no voxels for
+  prepare_pyramid(prepared);
 }
 
 double axis_distance_ratio(const PreparedScene& prepared) {

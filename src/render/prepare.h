@@ -27,6 +27,8 @@ struct PreparedScene {
   BoxSpace space;
   WarpView warp_view;
   std::vector<LensTessellation> lenses; ///< the scene's warps for this view
+  double log_zoom = 0;                  ///< ln of their largest zoom, for render.levels; 0 without a lens
+  std::vector<Volume> pyramid;          ///< levels 1, 2 … of render.levels (volume/pyramid.h)
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};

@@ -1,5 +1,6 @@
 #include "render/reference.h"
 
+#include "render/level_values.h"
 #include "render/pre_classification.h"
 #include "render/ray_frame.h"
 
@@ -39,6 +40,7 @@ struct Tracer : SharedFunctions {
   vec3 voxel;
   dmat3 world_from_gradient;
   bool nearest;
+  real level = 0; ///< that the sample reads, with render.levels
   Correction correction;
   real ratio;
 
@@ -82,8 +84,15 @@ struct Tracer : SharedFunctions {
                f.z);
   }
 
-  /// The data value at p.
+  /// The data value at p, of the sample's level.
   real displayed_value(vec3 p) const {
+    return prepared.pyramid.empty()
+               ? full_value(p)
+               : blended_levels(prepared, level, p, [this](vec3 t) { return full_value(t); });
+  }
+
+  /// At full resolution.
+  real full_value(vec3 p) const {
     return interpolated(p, [&](int i, int j, int k) { return voxel_value(i, j, k); });
   }
 
@@ -100,8 +109,9 @@ struct Tracer : SharedFunctions {
 #include "lib/gradient.glsl"
 
   vec3 shaded(vec3 color, vec3 t, vec3 p, vec3 to_eye) {
-    const vec3 by_texture = prepared.scene.render.gradient == Gradient::forward ? forward_gradient(t, voxel)
-                                                                                : central_gradient(t, voxel);
+    const vec3 h = voxel * std::exp2(level);
+    const vec3 by_texture =
+        prepared.scene.render.gradient == Gradient::forward ? forward_gradient(t, h) : central_gradient(t, h);
     const LightSettings& light = prepared.scene.light;
     return color * this->diffuse_factor(world_from_gradient * displayed_gradient(by_texture, p),
                                         light_direction(prepared, to_eye), light.ambient, light.diffuse,
@@ -140,6 +150,8 @@ struct Tracer : SharedFunctions {
   }
 
   vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
+    if (!prepared.pyramid.empty())
+      level = level_at(prepared, p);
     const vec3 t = data_point(p);
     if (!prepared.lenses.empty() && !shows_data(t))
       return gathered;

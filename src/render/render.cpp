@@ -65,6 +65,8 @@ void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Pr
     result.times.gpu_draw = timed_draw(gl, [&] { renderer.draw(prepared, scene, target, progress); });
     result.slices = renderer.slice_count();
     result.triangles = renderer.triangle_count();
+    if constexpr (requires { renderer.draw_call_count(); })
+      result.draw_calls = renderer.draw_call_count();
   };
   if (settings.pipeline == Pipeline::fixed_function) {
     draw_slices(FixedFunctionRenderer(context));
@@ -85,6 +87,8 @@ void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Pr
   result.limits = limits_text(context.info().limits);
   result.texture = scene.texture;
   result.texture_bytes = scene.bytes;
+  result.whole_texture_bytes = scene.whole_bytes;
+  result.volume_textures = std::max<std::size_t>(1, scene.bricks.size());
 }
 
 } // namespace

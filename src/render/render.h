@@ -24,14 +24,18 @@ struct RenderTimes {
 struct RenderResult {
   Image image; ///< on the scene's background; metadata is empty
   RenderTimes times;
-  std::string renderer; ///< GL_RENDERER, or "CPU, double precision" for the reference
-  std::string version;  ///< GL_VERSION, empty for the reference
-  std::string limits;   ///< what the driver allows, one line; empty for the reference
-  std::string context;  ///< kind of context
-  std::string texture;  ///< what holds the volume: "r16", "rgba8, classified", empty for the reference
-  std::size_t texture_bytes = 0;
-  std::size_t slices = 0;    ///< drawn, 0 for rays and reference
-  std::size_t triangles = 0; ///< of all slices
+  std::string renderer;          ///< GL_RENDERER, or "CPU, double precision" for the reference
+  std::string version;           ///< GL_VERSION, empty for the reference
+  std::string limits;            ///< what the driver allows, one line; empty for the reference
+  std::string context;           ///< kind of context
+  std::string texture;           ///< what holds the volume: "r16", "rgba8, classified"; empty: reference
+  std::size_t texture_bytes = 0; ///< of all textures, the transfer function's included
+  std::size_t whole_texture_bytes =
+      0;                           ///< what they would be with the volume in one texture at full resolution
+  std::size_t volume_textures = 0; ///< that hold the volume: 1 without render.tiles and render.levels
+  std::size_t draw_calls = 0;      ///< of the slices
+  std::size_t slices = 0;          ///< drawn, 0 for rays and reference
+  std::size_t triangles = 0;       ///< of all slices
 };
 
 /// The internal format that `render.target` names.

@@ -5,6 +5,7 @@
 #include "gl/timer.h"
 #include "render/shaders.h"
 #include "render/stack_geometry.h"
+#include "render/tiled_draw.h"
 #include "render/uniforms.h"
 
 #include <algorithm>
@@ -56,6 +57,7 @@ SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepa
 void SliceRenderer::slice(const PreparedScene& prepared) {
   const StackGeometry geometry = make_stack_geometry(prepared);
   index_ends_ = geometry.index_ends;
+  batches_ = geometry.batches;
 
   const gl::StateGuard guard(*gl_);
   gl_->BindVertexArray(vertex_array_.name());
@@ -73,7 +75,11 @@ void SliceRenderer::slice(const PreparedScene& prepared) {
   indices_ = gl::make_buffer(*gl_, GL_ELEMENT_ARRAY_BUFFER, std::as_bytes(std::span(geometry.indices)));
 }
 
-void SliceRenderer::draw_stack(const Progress& progress) {
+void SliceRenderer::draw_stack(const GpuScene& scene, const Progress& progress) {
+  if (!batches_.empty()) {
+    draw_batches(*gl_, program_, scene, batches_, progress);
+    return;
+  }
   const std::size_t count = index_ends_.size();
   // One call draws the whole stack in order. Only where somebody watches it is cut into steps.
   const std::size_t step =
@@ -120,7 +126,7 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
                         -half_width(view), -view.half_height));
   set_blending(gl, render);
   gl.BindVertexArray(vertex_array_.name());
-  draw_stack(progress);
+  draw_stack(scene, progress);
   if (maxima_)
     classify_maxima(prepared, scene, target);
   gl::check_errors(gl, "drawing the slices");

@@ -5,6 +5,7 @@
 
 #include "gl/target.h"
 #include "render/gpu_scene.h"
+#include "render/stack_geometry.h"
 #include "slicing/slice_stack.h"
 
 #include <optional>
@@ -27,9 +28,11 @@ public:
 
   std::size_t slice_count() const { return index_ends_.size(); }
   std::size_t triangle_count() const { return index_ends_.empty() ? 0 : index_ends_.back() / 3; }
+  /// Draw calls of one picture that nobody watches.
+  std::size_t draw_call_count() const { return batches_.empty() ? 1 : batches_.size(); }
 
 private:
-  void draw_stack(const Progress& progress);
+  void draw_stack(const GpuScene& scene, const Progress& progress);
   void classify_maxima(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target);
 
   const gl::Functions* gl_;
@@ -41,6 +44,7 @@ private:
   gl::Buffer corners_;
   gl::Buffer indices_;
   std::vector<std::size_t> index_ends_; ///< of each slice in the index buffer
+  std::vector<TileBatch> batches_;      ///< where the volume is held in tiles
 };
 
 } // namespace slicelens

@@ -1,6 +1,7 @@
 #include "render/stack_geometry.h"
 
 #include "core/errors.h"
+#include "render/bricks.h"
 #include "slicing/slice_stack.h"
 
 #include <algorithm>
@@ -21,7 +22,20 @@ void append_mesh(StackGeometry& geometry, const LensMesh& mesh) {
   for (const std::uint32_t index : mesh.triangles)
     geometry.indices.push_back(first + index);
   geometry.regions.insert(geometry.regions.end(), mesh.regions.begin(), mesh.regions.end());
-  geometry.index_ends.push_back(geometry.indices.size());
+}
+
+void append_tiles(StackGeometry& geometry, const LensMesh& mesh, const TileCuts& cuts) {
+  const std::vector<LensMesh> parts = split_by_tiles(mesh, cuts);
+  const bool backwards = geometry.index_ends.size() % 2 == 1;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::size_t tile = backwards ? parts.size() - 1 - i : i;
+    if (parts[tile].triangles.empty())
+      continue;
+    append_mesh(geometry, parts[tile]);
+    if (geometry.batches.empty() || geometry.batches.back().tile != tile)
+      geometry.batches.push_back({tile, 0});
+    geometry.batches.back().end = geometry.indices.size();
+  }
 }
 
 } // namespace
@@ -43,16 +57,23 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
 
   StackGeometry geometry;
   const LensClip clip{prepared.data_clip, prepared.object_clip};
+  const TileCuts cuts = is_bricked(render) ? plan_bricks(prepared).cuts : TileCuts{};
   for (const Slice& slice : stack.slices) {
     const Polygon polygon(stack.corners.begin() + slice.first,
                           stack.corners.begin() + slice.first + slice.count);
+    LensMesh mesh;
     if (!warped) {
-      append_mesh(geometry, cover_slice(polygon, {}, prepared.space, {}));
+      mesh = cover_slice(polygon, {}, prepared.space, {});
     } else if (render.pipeline == Pipeline::fragment) {
-      append_mesh(geometry, cover_slice(polygon, prepared.lenses, prepared.space, prepared.object_clip));
+      mesh = cover_slice(polygon, prepared.lenses, prepared.space, prepared.object_clip);
     } else {
-      append_mesh(geometry, tessellate_slice(polygon, prepared.lenses, prepared.space, clip));
+      mesh = tessellate_slice(polygon, prepared.lenses, prepared.space, clip);
     }
+    if (tile_count(cuts) > 1)
+      append_tiles(geometry, mesh, cuts);
+    else
+      append_mesh(geometry, mesh);
+    geometry.index_ends.push_back(geometry.indices.size());
   }
   return geometry;
 }

@@ -14,11 +14,21 @@ struct StackVertex {
   glm::vec4 texture;  ///< (s·q, t·q, r·q, q) of the data looked at; read by pipeline `tessellated` only
 };
 
+/// Triangles that follow each other and read the same tile.
+struct TileBatch {
+  std::size_t tile = 0;
+  std::size_t end = 0; ///< of its indices; they begin where the batch before ends
+};
+
 struct StackGeometry {
   std::vector<StackVertex> vertices;
   std::vector<std::uint32_t> indices;  ///< three a triangle
   std::vector<std::size_t> index_ends; ///< of each slice
   std::vector<LensRegion> regions;     ///< of each triangle
+  /// Where the volume is held in several tiles, else empty. Drawing is by slice, and by tile within a slice,
+  /// where tiles share no more than edges: so blending is in order. Every other slice goes through its tiles
+  /// backwards, so that a slice begins with the tile that the one before ended with.
+  std::vector<TileBatch> batches;
 };
 
 /// Cuts the stack for the scene's view and pipeline: plain polygons, lens triangles, or covers for lenses

@@ -1,5 +1,7 @@
 #include "render/uniforms.h"
 
+#include "render/tiled_draw.h"
+
 namespace slicelens {
 
 std::vector<std::string> common_macros(const PreparedScene& prepared) {
@@ -9,6 +11,8 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("FILTER_LINEAR_EXACT");
   if (render.classification == Classification::pre)
     macros.emplace_back("CLASSIFICATION_PRE");
+  if (is_bricked(render))
+    macros.push_back("LEVELS " + std::to_string(render.levels));
   switch (render.mode) {
   case Mode::dvr:
     macros.emplace_back("MODE_DVR");
@@ -104,6 +108,11 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
   gl.ActiveTexture(GL_TEXTURE1);
   gl.BindTexture(GL_TEXTURE_1D, scene.transfer.name());
   set_uniform(gl, program, "volume_texture", 0);
+  if (!scene.bricks.empty()) {
+    set_uniform(gl, program, "log_zoom", static_cast<float>(prepared.log_zoom));
+    set_level_samplers(gl, program, scene);
+    bind_tile(gl, program, scene, 0);
+  }
   set_uniform(gl, program, "transfer_texture", 1);
   set_uniform(gl, program, "value_from_texel", scene.value_from_texel);
   set_uniform(gl, program, "transfer_from_value", scene.transfer_from_value);

@@ -78,6 +78,13 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key("volume_texture", s.volume_texture, "texture the voxels are held in: auto, r8, r16 or r32f");
   visit.key("transfer_texture", s.transfer_texture,
             "texture the transfer function is held in: rgba8 or rgba32f");
+  visit.key("tiles", s.tiles,
+            "[x, y, z]: hold the volume in so many textures on each axis (slices and tessellated; the "
+            "reference has no textures and ignores it)");
+  visit.key(
+      "levels", s.levels,
+      "levels of a mip pyramid, 1 to 8: a lens' zoom region reads the finest, what is outside every lens "
+      "the coarsest, a border those between; 1: full resolution everywhere");
   visit.key("early_termination", s.early_termination, "rays stop at this opacity in (0,1]; 1: never",
             Range::unit);
   visit.key("background", s.background, "[r, g, b, a] in [0,1], not associated", Range::unit);

@@ -4,6 +4,7 @@
 #include "core/text.h"
 #include "scene/names.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace slicelens {
@@ -107,6 +108,50 @@ void validate_fixed_function(const RenderSettings& render) {
     refuse("has no filter 'linear-exact', which is a shader's", "render.filter", "linear or nearest");
 }
 
+void validate_bricks(const Scene& scene) {
+  const RenderSettings& render = scene.render;
+  const bool bricked = render.levels > 1 || render.tiles != std::array<std::size_t, 3>{1, 1, 1};
+  if (bricked && render.classification == Classification::pre) {
+    throw UsageError("render.classification 'pre' holds the volume in one texture of colours; set render.tiles to "
+                     "[1,1,1] and render.levels to 1, or render.classification to post");
+  }
+  const auto& tiles = render.tiles;
+  for (const std::size_t n : tiles) {
+    if (n < 1 || n > max_tiles)
+      throw UsageError("render.tiles: every axis takes from 1 to " + std::to_string(max_tiles) + " tiles");
+  }
+  const std::size_t count = tiles[0] * tiles[1] * tiles[2];
+  if (count > max_tiles) {
+    throw UsageError("render.tiles asks for " + std::to_string(count) + " textures; take at most " +
+                     std::to_string(max_tiles));
+  }
+  if (count > 1 && render.pipeline != Pipeline::slices && render.pipeline != Pipeline::tessellated &&
+      render.pipeline != Pipeline::reference) {
+    throw UsageError("pipeline '" + word(render.pipeline) +
+                     "' looks anywhere in the volume from each fragment and cannot hold it in tiles; use "
+                     "slices or tessellated, or render.tiles [1,1,1]");
+  }
+  if (render.levels < 1 || render.levels > max_levels) {
+    throw UsageError("render.levels must be from 1 to " + std::to_string(max_levels) + ", not " +
+                     std::to_string(render.levels));
+  }
+  if (render.levels == 1 || scene.warp.empty())
+    return;
+  double zoom = 0;
+  for (const Warp& warp : scene.warp) {
+    const auto& lens = std::get<LamarLens>(warp);
+    zoom = std::max(zoom, lens.zoom);
+    if (render.pipeline == Pipeline::tessellated && !lens.homogeneous) {
+      throw UsageError("render.levels follow the homogeneous weights; set warp.homogeneous to true or "
+                       "render.levels to 1");
+    }
+  }
+  if (zoom <= 1) {
+    throw UsageError("render.levels need a lens that magnifies, and the largest warp.zoom is " +
+                     number_text(zoom) + "; raise it above 1 or set render.levels to 1");
+  }
+}
+
 } // namespace
 
 bool draws_slices(Pipeline pipeline) {
@@ -170,6 +215,7 @@ void validate(const Scene& scene) {
     throw UsageError("overlay.wireframe shows the triangles of a lens; pipeline '" +
                      word(scene.render.pipeline) + "' has none, give tessellated or fixed-function");
   }
+  validate_bricks(scene);
   for (const ClipSettings& plane : scene.clip) {
     if (glm::length(plane.normal) == 0)
       throw UsageError("clip: a plane's normal is the zero vector; give a direction");

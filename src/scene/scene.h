@@ -80,7 +80,9 @@ struct RenderSettings {
   Target target = Target::rgba32f;
   VolumeTexture volume_texture = VolumeTexture::automatic;
   TransferTexture transfer_texture = TransferTexture::rgba32f;
-  double early_termination = 1; ///< rays stop when their opacity reaches this; 1: never
+  std::array<std::size_t, 3> tiles{1, 1, 1}; ///< textures that the volume is held in, on each axis
+  std::size_t levels = 1;                    ///< of a mip pyramid that a lens reads (1: full resolution only)
+  double early_termination = 1;              ///< rays stop when their opacity reaches this; 1: never
   glm::dvec4 background{0, 0, 0, 1};
   ContextName context = ContextName::automatic;
 };
@@ -127,6 +129,11 @@ struct Scene {
   std::vector<Warp> warp; ///< in forward order (METHODS §0)
   OverlaySettings overlay;
 };
+
+/// Limits of render.tiles and render.levels.
+inline constexpr std::size_t max_tiles = 1024;    ///< in all
+inline constexpr std::size_t min_tile_voxels = 4; ///< on each axis of a tile
+inline constexpr std::size_t max_levels = 8;
 
 /// Whether a pipeline blends slices (and not rays).
 bool draws_slices(Pipeline pipeline);

@@ -20,7 +20,7 @@ struct LensVertex {
 /// Which region a triangle belongs to (LaMar Fig. 7: green, blue, red).
 enum class LensRegion : std::uint8_t { normal, border, zoom };
 
-/// Triangles of one slice.
+/// Triangles of one slice. Those of a convex piece follow each other as a fan about its first corner.
 struct LensMesh {
   std::vector<LensVertex> vertices;
   std::vector<std::uint32_t> triangles; ///< three indices each

@@ -112,6 +112,10 @@ LamarMap lamar_map(const LamarLens& lens, const BoxSpace& space, const WarpView&
   return map;
 }
 
+double magnification(const LamarMap& map, const glm::dvec3& p) {
+  return Functions().lamar_magnification(map, p);
+}
+
 glm::dvec3 texture_from_object(const LamarMap& map, const glm::dvec3& p) {
   return Functions().lamar_texture_from_object(map, p);
 }

@@ -69,6 +69,9 @@ LamarMap lamar_map(const LamarLens& lens, const BoxSpace& space, const WarpView&
 glm::dvec3 texture_from_object(const LamarMap& map, const glm::dvec3& p);
 glm::dmat3 jacobian(const LamarMap& map, const glm::dvec3& p);
 
+/// Local tangential magnification q = r/f(r) at p, box space: the homogeneous weight; 1 outside the lens.
+double magnification(const LamarMap& map, const glm::dvec3& p);
+
 /// The forward map: where the point u of the data is shown (the profile inverted by bisection to 1e-14). The
 /// planes across the view stay where they are.
 glm::dvec3 object_from_texture(const LamarMap& map, const glm::dvec3& u);

@@ -60,8 +60,12 @@ void print_verbose(const RenderResult& result, const PreparedScene& prepared, do
   if (!result.texture.empty())
     std::fprintf(stderr, "texture    %s, %.1f MiB\n", result.texture.c_str(),
                  static_cast<double>(result.texture_bytes) / (1 << 20));
+  if (result.volume_textures > 1)
+    std::fprintf(stderr, "           in %zu textures; one of full resolution would take %.1f MiB\n",
+                 result.volume_textures, static_cast<double>(result.whole_texture_bytes) / (1 << 20));
   if (result.slices > 0)
-    std::fprintf(stderr, "slices     %zu, %zu triangles\n", result.slices, result.triangles);
+    std::fprintf(stderr, "slices     %zu, %zu triangles, %zu draw calls\n", result.slices, result.triangles,
+                 result.draw_calls);
   for (const LensTessellation& lens : prepared.lenses) {
     std::fprintf(stderr, "lens       %zu angular and %zu radial segments\n", lens.ring.size(),
                  lens.radial_segments);
