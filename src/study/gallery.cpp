@@ -38,20 +38,20 @@ std::string row(const std::string& name, const std::string& value) {
   return "<tr><th>" + html_text(name) + "</th><td>" + html_text(value) + "</td></tr>\n";
 }
 
+std::string metrics_text(const Metrics& m) {
+  return "PSNR " + decibels(m.psnr) + " (covered pixels " + decibels(m.psnr_covered) + "), SSIM " +
+         formatted("%.5f", m.ssim) + ", largest difference " + formatted("%.2g", m.max_abs) + ", " +
+         formatted("%.3g %%", 100 * m.over_1_255) + " of the values differ by more than 1/255";
+}
+
 std::string article(const GalleryEntry& entry) {
-  const Metrics& m = entry.metrics;
   std::string text = "<article id=\"" + html_text(entry.name) + "\">\n<h2>" + html_text(entry.title) +
                      "</h2>\n<div class=\"pictures\">\n";
-  text += figure(entry.slices_picture, "slices: " + std::to_string(entry.slice_count) + " planes, drawn in " +
-                                           formatted("%.0f ms", 1000 * entry.slices_seconds));
-  text += figure(entry.rays_picture, "rays, drawn in " + formatted("%.0f ms", 1000 * entry.rays_seconds));
-  text += figure(entry.heat_map, "largest difference at each pixel; the bar shows the scale");
-  text += "</div>\n<table>\n";
-  text += row("volume", entry.volume);
-  text += row("slices against rays",
-              "PSNR " + decibels(m.psnr) + " (covered pixels " + decibels(m.psnr_covered) + "), SSIM " +
-                  formatted("%.5f", m.ssim) + ", largest difference " + formatted("%.2g", m.max_abs) + ", " +
-                  formatted("%.3g %%", 100 * m.over_1_255) + " of the values differ by more than 1/255");
+  for (const GalleryPicture& picture : entry.pictures)
+    text += figure(picture.file, picture.caption);
+  text += "</div>\n<table>\n" + row("data", entry.data);
+  if (entry.metrics)
+    text += row(entry.comparison, metrics_text(*entry.metrics));
   text += "</table>\n<details><summary>scene, and the command that renders it</summary>\n<pre>" +
           html_text(entry.command) + "</pre>\n<pre>" + html_text(entry.scene_json) +
           "</pre></details>\n</article>\n";
@@ -83,17 +83,15 @@ std::string html_text(const std::string& text) {
   return result;
 }
 
-std::string gallery_page(const std::vector<GalleryEntry>& entries, const std::string& driver,
+std::string gallery_page(const std::string& title, const std::string& lead,
+                         const std::vector<GalleryEntry>& entries, const std::string& driver,
                          double seconds) {
-  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
-                     "name=\"viewport\" content=\"width=device-width\">\n"
-                     "<title>Slicelens gallery</title>\n<style>" +
-                     std::string(style) +
-                     "</style>\n</head>\n<body>\n<h1>Slicelens gallery</h1>\n<p class=\"lead\">Each scene is "
-                     "drawn twice: as a stack of "
-                     "blended, view-aligned slices through a 3D texture, and by a ray caster that samples "
-                     "the same points. Drawn by " +
-                     html_text(driver) + " in " + formatted("%.1f s", seconds) + ".</p>\n";
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width\">\n<title>" +
+      html_text(title) + "</title>\n<style>" + std::string(style) + "</style>\n</head>\n<body>\n<h1>" +
+      html_text(title) + "</h1>\n<p class=\"lead\">" + html_text(lead) + " Drawn by " + html_text(driver) +
+      " in " + formatted("%.1f s", seconds) + ".</p>\n";
   for (const GalleryEntry& entry : entries)
     page += article(entry);
   return page + "</body>\n</html>\n";

@@ -5,15 +5,21 @@
 #include "image/image_io.h"
 #include "image/pictures.h"
 #include "inputs.h"
+#include "lens_inputs.h"
 #include "options.h"
+#include "render/lens_picture.h"
 #include "scene/load.h"
+#include "scene/names.h"
 #include "scene/scene_json.h"
 #include "study/gallery.h"
 
+#include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <system_error>
 
@@ -30,8 +36,9 @@ namespace fs = std::filesystem;
 /// A scene of the gallery and how a user names it.
 struct GalleryScene {
   std::string name;
-  std::string argument; ///< of `slicelens render`
+  std::string argument; ///< of `slicelens render` or `slicelens lens`
   SceneInput input;
+  std::optional<ImageSceneInput> image; ///< instead, for a lens over a picture
 };
 
 /// What a gallery shows of a user's volume: the same data by each mode.
@@ -59,8 +66,10 @@ std::vector<GalleryScene> scenes_of_volume(const std::string& volume, const std:
     for (const std::string& change : set)
       argument += " --set '" + change + "'";
     all.insert(all.end(), set.begin(), set.end());
-    scenes.push_back(
-        {path.stem().string() + "_" + std::to_string(scenes.size() + 1), argument, scene_input(volume, all)});
+    scenes.push_back({path.stem().string() + "_" + std::to_string(scenes.size() + 1),
+                      argument,
+                      scene_input(volume, all),
+                      {}});
   }
   return scenes;
 }
@@ -84,16 +93,25 @@ std::vector<GalleryScene> scenes_of(const GalleryOptions& options) {
   std::vector<GalleryScene> scenes;
   if (options.inputs.empty()) {
     for (const EmbeddedFile& file : embedded_scenes()) {
-      scenes.push_back({fs::path(file.name).stem().string(), fs::path(file.name).stem().string() + ".json",
-                        scene_text_input(file.text, file.name, options.set)});
+      scenes.push_back({fs::path(file.name).stem().string(),
+                        fs::path(file.name).stem().string() + ".json",
+                        scene_text_input(file.text, file.name, options.set),
+                        {}});
     }
   }
   for (const std::string& input : options.inputs) {
     if (kind_of(input) == InputKind::volume) {
       for (GalleryScene& scene : scenes_of_volume(input, options.set))
         scenes.push_back(std::move(scene));
+    } else if (kind_of(input) == InputKind::scene && is_image_scene(read_text(input))) {
+      std::vector<KeyValue> changes;
+      for (const std::string& text : options.set)
+        changes.push_back(parse_assignment(text));
+      scenes.push_back(
+          {fs::path(input).stem().string(), "'" + input + "'", {}, image_scene_input(input, changes)});
     } else {
-      scenes.push_back({fs::path(input).stem().string(), "'" + input + "'", scene_input(input, options.set)});
+      scenes.push_back(
+          {fs::path(input).stem().string(), "'" + input + "'", scene_input(input, options.set), {}});
     }
   }
   name_files(scenes);
@@ -113,33 +131,90 @@ public:
   explicit Gallery(const GalleryOptions& options) : folder_(options.folder) {}
 
   GalleryEntry make_entry(const GalleryScene& scene, const Progress& progress) {
-    GalleryEntry entry;
-    entry.name = scene.name;
-    entry.title = scene.input.scene.title.empty() ? scene.name : scene.input.scene.title;
-    entry.scene_json = scene_to_json(scene.input.scene);
-    entry.command = "slicelens render " + scene.argument + " -o " + scene.name + ".png";
-    const RenderResult slices = draw(scene.input, slicing_pipeline(scene.input.scene), progress);
-    const RenderResult rays = draw(scene.input, Pipeline::rays, progress);
-    entry.slices_picture = save(slices.image, scene.name + "_slices.png");
-    entry.rays_picture = save(rays.image, scene.name + "_rays.png");
-    entry.heat_map = save(heat_map(slices.image, rays.image, 0.02), scene.name + "_difference.png");
-    const glm::dvec3 background(scene.input.scene.render.background);
-    entry.metrics = compare_images(slices.image, rays.image, background, background);
-    entry.slices_seconds = slices.times.draw;
-    entry.rays_seconds = rays.times.draw;
-    entry.slice_count = slices.slices;
-    entry.volume = std::to_string(volume_.dims[0]) + "×" + std::to_string(volume_.dims[1]) + "×" +
-                   std::to_string(volume_.dims[2]) + " " + name_of(volume_.type) + ", " + volume_.format;
-    driver_ = slices.renderer + ", OpenGL " + slices.version;
-    if (scene.argument == scene.name + ".json") {
-      write_text_atomically(folder_ / scene.argument, entry.scene_json + "\n");
-    }
-    return entry;
+    return scene.image ? make_lens_entry(scene) : make_volume_entry(scene, progress);
   }
 
   const std::string& driver() const { return driver_; }
 
 private:
+  GalleryEntry make_volume_entry(const GalleryScene& scene, const Progress& progress) {
+    GalleryEntry entry;
+    entry.name = scene.name;
+    entry.title = scene.input.scene.title.empty() ? scene.name : scene.input.scene.title;
+    entry.scene_json = scene_to_json(scene.input.scene);
+    entry.command = "slicelens render " + scene.argument + " -o " + scene.name + ".png";
+    const Pipeline slicing = slicing_pipeline(scene.input.scene);
+    const RenderResult slices = draw(scene.input, slicing, progress);
+    driver_ = slices.renderer + ", OpenGL " + slices.version;
+    entry.pictures.push_back({save(slices.image, scene.name + "_slices.png"),
+                              word(slicing) + ": " + std::to_string(slices.slices) + " planes, drawn in " +
+                                  milliseconds(slices.times.draw)});
+    const bool rays_can = scene.input.scene.overlay.stack == 0 && slicing != Pipeline::fixed_function &&
+                          scene.input.scene.render.tiles == std::array<std::size_t, 3>{1, 1, 1};
+    if (rays_can) {
+      const RenderResult rays = draw(scene.input, Pipeline::rays, progress);
+      entry.pictures.push_back(
+          {save(rays.image, scene.name + "_rays.png"), "rays, drawn in " + milliseconds(rays.times.draw)});
+      const glm::dvec3 background(scene.input.scene.render.background);
+      compare(entry, word(slicing) + " against rays", slices.image, rays.image, background);
+    }
+    entry.data = std::to_string(volume_.dims[0]) + "×" + std::to_string(volume_.dims[1]) + "×" +
+                 std::to_string(volume_.dims[2]) + " " + name_of(volume_.type) + ", " + volume_.format;
+    if (scene.argument == scene.name + ".json")
+      write_text_atomically(folder_ / scene.argument, entry.scene_json + "\n");
+    return entry;
+  }
+
+  GalleryEntry make_lens_entry(const GalleryScene& scene) {
+    ImageSceneInput input = *scene.image;
+    GalleryEntry entry;
+    entry.name = scene.name;
+    entry.title = input.scene.title.empty() ? scene.name : input.scene.title;
+    entry.scene_json = image_scene_to_json(input.scene);
+    entry.command = "slicelens lens " + scene.argument + " -o " + scene.name + ".png";
+    const PictureResult shown = draw_lens(input);
+    driver_ = shown.renderer + ", OpenGL " + shown.version;
+    entry.pictures.push_back({save(shown.image, scene.name + "_lens.png"),
+                              word(input.scene.render.pipeline) + ": " + std::to_string(shown.triangles) +
+                                  " triangles, drawn in " + milliseconds(shown.draw_seconds)});
+    const bool affine = std::any_of(input.scene.warp.begin(), input.scene.warp.end(),
+                                    [](const Warp& warp) { return !std::get<LamarLens>(warp).homogeneous; });
+    if (input.scene.render.pipeline == LensPipeline::tessellated && !affine) {
+      input.scene.overlay = {}; // lines would count as differences
+      const PictureResult corners = draw_lens(input);
+      input.scene.render.pipeline = LensPipeline::fragment;
+      const PictureResult exact = draw_lens(input);
+      entry.pictures.push_back(
+          {save(exact.image, scene.name + "_fragment.png"), "fragment: the exact profile at each pixel"});
+      compare(entry, "tessellated against fragment", corners.image, exact.image,
+              glm::dvec3(input.scene.render.background));
+    }
+    entry.data = "picture of " + std::to_string(shown.image.width) + "×" +
+                 std::to_string(shown.image.height) + " pixels";
+    return entry;
+  }
+
+  PictureResult draw_lens(const ImageSceneInput& input) {
+    Scene wanted;
+    wanted.render.context = input.scene.render.context;
+    const PreparedPicture prepared =
+        prepare_picture(input.scene, load_image(input.scene.image, input.folders));
+    open_context(context_, wanted);
+    return render_picture(prepared, &*context_.context);
+  }
+
+  void compare(GalleryEntry& entry, const std::string& what, const Image& a, const Image& b,
+               const glm::dvec3& background) {
+    entry.pictures.push_back({save(heat_map(a, b, 0.02), entry.name + "_difference.png"),
+                              "largest difference at each pixel; the bar shows the scale"});
+    entry.comparison = what;
+    entry.metrics = compare_images(a, b, background, background);
+  }
+
+  static std::string milliseconds(double seconds) {
+    return std::to_string(std::lround(1000 * seconds)) + " ms";
+  }
+
   RenderResult draw(const SceneInput& input, Pipeline pipeline, const Progress& progress) {
     Scene volume_only;
     volume_only.volume = input.scene.volume;
@@ -198,8 +273,11 @@ void run_gallery(const GalleryOptions& options) {
   }
   end_progress();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string lead = "Volumes are drawn twice: as a stack of blended, view-aligned slices through a 3D "
+                           "texture, and by a ray caster that samples the "
+                           "same points. Lenses over pictures are drawn by their tessellation and exactly.";
   const fs::path page = fs::path(options.folder) / "index.html";
-  write_text_atomically(page, gallery_page(entries, gallery.driver(), seconds));
+  write_text_atomically(page, gallery_page("Slicelens gallery", lead, entries, gallery.driver(), seconds));
   std::printf("%s\n", page.string().c_str());
 }
 

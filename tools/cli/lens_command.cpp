@@ -3,6 +3,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "image/image_io.h"
+#include "lens_inputs.h"
 #include "options.h"
 #include "render/lens_picture.h"
 #include "render/render.h"
@@ -22,13 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A 2D scene and where its relative paths count from.
-struct ImageSceneInput {
-  ImageScene scene;
-  std::vector<fs::path> folders;
-  std::string expected_sha256; ///< of image.file, when the scene comes from a picture
-};
-
 std::vector<KeyValue> changes_of(const LensOptions& options) {
   std::vector<KeyValue> changes;
   if (options.wireframe)
@@ -42,55 +36,6 @@ std::vector<KeyValue> changes_of(const LensOptions& options) {
   for (const std::string& text : options.set)
     changes.push_back(parse_assignment(text));
   return changes;
-}
-
-std::string pattern_scene(const std::string& input) {
-  std::error_code error;
-  if (fs::exists(input, error))
-    return "";
-  return input == "checkerboard" || input == "testcard" ? R"({"image": {")" + input + R"(": {}}})" : "";
-}
-
-ImageSceneInput image_scene_input(const LensOptions& options) {
-  const std::string& input = options.input;
-  const std::vector<KeyValue> changes = changes_of(options);
-  const std::string pattern = pattern_scene(input);
-  if (!pattern.empty())
-    return {image_scene_from_json(pattern, input, changes), {"."}, ""};
-  const bool from_command = std::any_of(changes.begin(), changes.end(),
-                                        [](const KeyValue& c) { return c.key.rfind("image", 0) == 0; });
-  fs::path home = fs::path(input).parent_path();
-  if (home.empty())
-    home = ".";
-  const std::vector<fs::path> folders =
-      from_command ? std::vector<fs::path>{".", home} : std::vector<fs::path>{home, "."};
-  if (lower(fs::path(input).extension().string()) == ".json")
-    return {image_scene_from_json(read_text(input), input, changes), folders, ""};
-  const auto metadata = read_metadata(input);
-  const auto scene = metadata.find("slicelens:image_scene");
-  if (scene != metadata.end()) {
-    const auto hash = metadata.find("slicelens:image_sha256");
-    return {image_scene_from_json(scene->second, input, changes), folders,
-            hash != metadata.end() && !from_command ? hash->second : ""};
-  }
-  if (from_command)
-    throw UsageError(input + ": is the image already; leave --set image.… out or give a scene");
-  ImageScene plain = image_scene_from_json("{}", input, changes);
-  plain.image = {input, std::nullopt, std::nullopt};
-  return {plain, {"."}, ""};
-}
-
-/// The hash of the image's file; empty for patterns.
-std::string hash_of(const ImageSceneInput& input, const std::string& source) {
-  if (!input.scene.image.file)
-    return "";
-  const std::string hash = sha256_of({resolve_file(*input.scene.image.file, input.folders, "image.file")});
-  if (!input.expected_sha256.empty() && hash != input.expected_sha256) {
-    throw FileError(*input.scene.image.file, "is not the image that " + source +
-                                                 " was made from (SHA-256 differs); name the right one with "
-                                                 "--set image.file=…");
-  }
-  return hash;
 }
 
 void print_verbose(const PreparedPicture& prepared, const PictureResult& result) {
@@ -109,7 +54,7 @@ void print_verbose(const PreparedPicture& prepared, const PictureResult& result)
 } // namespace
 
 void run_lens(const LensOptions& options) {
-  const ImageSceneInput input = image_scene_input(options);
+  const ImageSceneInput input = image_scene_input(options.input, changes_of(options));
   if (options.print_scene) {
     std::printf("%s\n", image_scene_to_json(input.scene).c_str());
     return;
