@@ -98,7 +98,8 @@ TEST_CASE("changes by --set reach every key and one alternative removes the othe
   CHECK(scene.render.size[1] == 9);
   CHECK(scene_from_json(R"({"volume":{"file":"a"}})", "s", {parse_assignment("volume.phantom=ball")})
             .volume.phantom == "ball");
-  CHECK(scene_from_json("{}", "s", {parse_assignment("volume.file=a")}).volume.file == "a"); // a section not yet there
+  CHECK(scene_from_json("{}", "s", {parse_assignment("volume.file=a")}).volume.file ==
+        "a"); // a section not yet there
   CHECK(contains(refusal("{}", {parse_assignment("render.spacng=1")}), "did you mean render.spacing?"));
   CHECK(contains(refusal("{}", {parse_assignment("title.x.y=1"), parse_assignment("title.x=1")}), "title"));
   CHECK_THROWS_AS(parse_assignment("spacing"), UsageError);
@@ -113,4 +114,28 @@ TEST_CASE("every key has a help text") {
   CHECK(keys.size() > 40);
   for (const auto& [key, help] : keys)
     CHECK_FALSE(help.empty());
+}
+
+TEST_CASE("a warp is one object or a list, and chooses its paper's pipeline") {
+  const Scene one =
+      scene_from_json(R"({"warp":{"kind":"lamar","zoom":3,"radial_segments":"adaptive"}})", "s");
+  REQUIRE(one.warp.size() == 1);
+  const auto& lens = std::get<LamarLens>(one.warp[0]);
+  CHECK(lens.zoom == 3);
+  CHECK_FALSE(lens.radial_segments.has_value());
+  CHECK(one.render.pipeline == Pipeline::tessellated);
+  CHECK(scene_from_json(R"({"render":{"pipeline":"rays"},"warp":{"kind":"lamar"}})", "s").render.pipeline ==
+        Pipeline::rays);
+  CHECK(scene_from_json("{}", "s").render.pipeline == Pipeline::slices);
+  const Scene two = scene_from_json(R"({"warp":[{"kind":"lamar"},{"kind":"lamar","zoom":2}]})", "s",
+                                    {parse_assignment("warp[1].zoom=5")});
+  CHECK(std::get<LamarLens>(two.warp.at(1)).zoom == 5);
+  for (const Scene& scene : {one, two}) {
+    const std::string text = scene_to_json(scene);
+    CHECK(scene_to_json(scene_from_json(text, "s")) == text);
+  }
+  CHECK(contains(refusal(R"({"warp":{"zoom":3}})"), "warp.kind"));
+  CHECK(contains(refusal(R"({"warp":{"kind":"lamr"}})"), "lamar"));
+  CHECK(contains(refusal(R"({"warp":{"kind":"lamar","zom":3}})"), "did you mean warp.zoom?"));
+  CHECK(contains(refusal(R"({"warp":{"kind":"lamar","radial_segments":"many"}})"), "adaptive"));
 }
