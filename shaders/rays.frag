@@ -1,4 +1,4 @@
-// A ray through each pixel, sampled front to back (METHODS §0). The loop gathers in its own variables only and nothing
+// A ray through each pixel, sampled front to back (docs/pipeline.md). The loop gathers in its own variables only and nothing
 // that a diverging loop computes is read but through them.
 
 #include "lib/opacity.glsl"

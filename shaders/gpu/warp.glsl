@@ -6,7 +6,7 @@
 uniform LamarMap lenses[LENS_COUNT];
 uniform vec3 box_size;  // box space = texture coordinates · box_size
 
-// Where the data shown at p is: u = u_1 ∘ … ∘ u_n (METHODS §0).
+// Where the data shown at p is: u = u_1 ∘ … ∘ u_n (docs/pipeline.md).
 vec3 texture_from_object(vec3 p) {
   vec3 b = p * box_size;
   for (int i = LENS_COUNT - 1; i >= 0; --i) b = lamar_texture_from_object(lenses[i], b);

@@ -1,4 +1,4 @@
-// Opacity for another sample distance (METHODS §0): α' = 1 − (1 − α)^ratio, ratio = Δ/Δ₀.
+// Opacity for another sample distance (docs/pipeline.md): α' = 1 − (1 − α)^ratio, ratio = Δ/Δ₀.
 //
 // Written as −expm1(ratio · log1p(−α)), because 1 − pow(1 − α, ratio) loses what a thin transfer function is made of:
 // at α = 1e-4 the float subtraction alone costs 3e-4 of the result, and drivers compute pow to about 1e-5.

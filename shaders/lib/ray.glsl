@@ -1,4 +1,4 @@
-// Rays through pixels and where their samples lie (METHODS §0, "Slice stack" and "Modes").
+// Rays through pixels and where their samples lie (docs/spaces.md).
 //
 // A ray's origin is its anchor, the point from which sample distances count: on the plane through the box centre in
 // orthographic views, at the eye's distance from the box centre under perspective. Sample k lies at

@@ -1,4 +1,4 @@
-// LaMar's magnification lens as an inverse map (LaMar, Hamann and Joy 2001; METHODS §1), in box space.
+// LaMar's magnification lens as an inverse map (LaMar, Hamann and Joy 2001; docs/papers/lamar.md), in box space.
 //
 // In each plane across the viewing direction points move along lines through the lens axis, from texture radius f(r) to
 // radius r. m = 1/Q is the minification of the zoom region; every profile is linear in m, or rational for `simple`.

@@ -21,8 +21,8 @@ struct Interval {
   double far = 0;
 };
 
-/// The volume's box: the image of texture space [0,1]³ under an affine map (METHODS §0). It reaches from face
-/// to face of the outer voxels, N·spacing long on each axis.
+/// The volume's box: the image of texture space [0,1]³ under an affine map (docs/pipeline.md). It reaches
+/// from face to face of the outer voxels, N·spacing long on each axis.
 struct Box {
   glm::dmat4 world_from_texture{1};
 };

@@ -11,7 +11,7 @@ namespace slicelens {
 enum class Projection { orthographic, perspective };
 
 /// A camera frame in world space with the picture it fills. `right`, `up` and `forward` are orthonormal;
-/// the right-handed view space of METHODS §0 looks down −z, so its z axis is −forward.
+/// the right-handed view space of docs/pipeline.md looks down −z, so its z axis is −forward.
 struct View {
   Projection projection = Projection::orthographic;
   glm::dvec3 eye{0};           ///< perspective: centre of projection; orthographic: any point on the axis
@@ -30,7 +30,7 @@ double half_width(const View& view);
 double depth(const View& view, const glm::dvec3& world);
 
 /// The ray through image position (x, y) in pixels, (0,0) the top left corner of the picture, pixel centres
-/// at +½ (DESIGN §3). World space, unit direction. Orthographic rays start on the plane through `eye`.
+/// at +½ (docs/spaces.md). World space, unit direction. Orthographic rays start on the plane through `eye`.
 Ray ray_from_pixel(const View& view, double x, double y);
 
 /// Unit vector from `world` towards the viewer.

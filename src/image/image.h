@@ -8,7 +8,7 @@
 namespace slicelens {
 
 /// RGBA floats with associated (premultiplied) colour in display space; row 0 is the top of the picture
-/// (DESIGN §3). Values may exceed 1 (an X-ray's line integral).
+/// (docs/spaces.md). Values may exceed 1 (an X-ray's line integral).
 struct Image {
   int width = 0;
   int height = 0;

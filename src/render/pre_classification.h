@@ -1,5 +1,5 @@
 // Classification `pre`: every voxel becomes an associated colour before anything is interpolated, as the
-// hardware of 2001 did it (LaMar §4; METHODS §0).
+// hardware of 2001 did it (LaMar §4; docs/pipeline.md).
 //
 // A texel is (C·α', α') rounded to 8 bits, α' = 1 − (1 − α)^(Δ/Δ₀): the correction is baked in once per
 // frame. Mode `xray` sums opacities, so its texels hold α itself. Opacities below 1/510 round to nothing:

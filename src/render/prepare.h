@@ -40,7 +40,7 @@ PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer);
 /// The same data seen by another camera or with other render settings; nothing is read again.
 void prepare_again(PreparedScene& prepared);
 
-/// Δ/Δ₀: exponent of the opacity correction on the view axis and along rays (METHODS §0).
+/// Δ/Δ₀: exponent of the opacity correction on the view axis and along rays (docs/pipeline.md).
 double axis_distance_ratio(const PreparedScene& prepared);
 
 /// How a pipeline must correct the opacity of a sample.

@@ -1,4 +1,4 @@
-// Pipeline `rays`: a fragment-shader ray caster with analytic box hits (METHODS §0).
+// Pipeline `rays`: a fragment-shader ray caster with analytic box hits (docs/pipeline.md).
 #pragma once
 
 #include "gl/target.h"

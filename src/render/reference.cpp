@@ -118,7 +118,7 @@ struct Tracer : SharedFunctions {
                                         light.two_sided);
   }
 
-  /// u = u_1 ∘ … ∘ u_n (METHODS §0).
+  /// u = u_1 ∘ … ∘ u_n (docs/pipeline.md).
   vec3 data_point(vec3 p) const {
     if (prepared.lenses.empty())
       return p;

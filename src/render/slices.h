@@ -1,6 +1,6 @@
 // Pipelines `slices`, `tessellated` and `fragment`: a stack of view-aligned polygons, textured, classified
-// and blended (METHODS §0; LaMar §3, Brunet §3). They differ in where a lens is evaluated: nowhere, at the
-// corners, at each fragment.
+// and blended (docs/pipeline.md; LaMar §3, Brunet §3). They differ in where a lens is evaluated: nowhere, at
+// the corners, at each fragment.
 #pragma once
 
 #include "gl/target.h"

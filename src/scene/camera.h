@@ -6,7 +6,7 @@
 
 namespace slicelens {
 
-/// The view of `camera` on `box` for a picture of width × height pixels (DESIGN §3).
+/// The view of `camera` on `box` for a picture of width × height pixels (docs/spaces.md).
 /// Default: looks along +y at the box centre with +z up, orthographic with parallel scale = half the box
 /// diagonal; azimuth, elevation and roll turn the whole frame about the focal point as VTK's calls of the
 /// same name do, in this order. Perspective: the eye stands at bounding radius / sin(view_angle/2) from the

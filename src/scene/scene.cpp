@@ -65,7 +65,7 @@ void validate_render(const RenderSettings& render) {
   }
 }
 
-/// Voxels that are classified once cannot be corrected, lit or compared later (METHODS §0).
+/// Voxels that are classified once cannot be corrected, lit or compared later (docs/pipeline.md).
 void validate_pre_classification(const RenderSettings& render, const CameraSettings& camera) {
   if (render.mode == Mode::mip) {
     throw UsageError("render.classification 'pre' holds colours, of which mode 'mip' cannot take the largest "
@@ -112,8 +112,9 @@ void validate_bricks(const Scene& scene) {
   const RenderSettings& render = scene.render;
   const bool bricked = render.levels > 1 || render.tiles != std::array<std::size_t, 3>{1, 1, 1};
   if (bricked && render.classification == Classification::pre) {
-    throw UsageError("render.classification 'pre' holds the volume in one texture of colours; set render.tiles to "
-                     "[1,1,1] and render.levels to 1, or render.classification to post");
+    throw UsageError(
+        "render.classification 'pre' holds the volume in one texture of colours; set render.tiles to "
+        "[1,1,1] and render.levels to 1, or render.classification to post");
   }
   const auto& tiles = render.tiles;
   for (const std::size_t n : tiles) {

@@ -1,4 +1,4 @@
-// The scene: everything that decides a picture, as plain values (DESIGN §4 is the contract of its keys).
+// The scene: everything that decides a picture, as plain values (docs/scenes.md is the contract of its keys).
 #pragma once
 
 #include "volume/volume.h"
@@ -126,7 +126,7 @@ struct Scene {
   RenderSettings render;
   LightSettings light;
   std::vector<ClipSettings> clip;
-  std::vector<Warp> warp; ///< in forward order (METHODS §0)
+  std::vector<Warp> warp; ///< in forward order (docs/pipeline.md)
   OverlaySettings overlay;
 };
 

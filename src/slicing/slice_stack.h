@@ -1,4 +1,5 @@
-// The slice stack: planes perpendicular to the viewing direction, cut with the volume's box (METHODS §0).
+// The slice stack: planes perpendicular to the viewing direction, cut with the volume's box
+// (docs/pipeline.md).
 #pragma once
 
 #include "core/box.h"

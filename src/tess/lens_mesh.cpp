@@ -49,7 +49,7 @@ struct Footprint {
   glm::dvec2 ring(std::size_t j, double r) const { return r * lens.ring[j % lens.ring.size()]; }
 };
 
-/// Radius, texture radius and weight of each ring of the border (METHODS §1, "Tessellation").
+/// Radius, texture radius and weight of each ring of the border (docs/papers/lamar.md).
 struct Ring {
   double radius = 0;
   double texture_radius = 0;

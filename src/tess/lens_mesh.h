@@ -1,5 +1,5 @@
 // Slices cut into triangles that carry a lens in homogeneous texture coordinates (LaMar, Hamann and Joy 2001,
-// §3 and §4; METHODS §1). No OpenGL.
+// §3 and §4; docs/papers/lamar.md). No OpenGL.
 #pragma once
 
 #include "slicing/polygon.h"

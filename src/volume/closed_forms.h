@@ -1,4 +1,4 @@
-// What renderings of the phantoms must show, as formulas of the ray: METHODS §0, "Ground truth". Everything
+// What renderings of the phantoms must show, as formulas of the ray: docs/spaces.md. Everything
 // in double precision. Boxes are volume boxes (box_of); rays are in world space and stand for the whole line
 // through them, both ways, with any length of direction; lengths and distances are in world units. Colours
 // are given straight and returned associated, on a transparent background.

@@ -15,7 +15,7 @@
 namespace slicelens {
 
 /// Which volume to read: the keys `volume.file`, `size`, `type`, `spacing`, `endian`, `component`, `frame`
-/// and `series` of a scene (DESIGN §4).
+/// and `series` of a scene (docs/scenes.md).
 struct VolumeSource {
   /// A volume file; any file of a DICOM series; a folder with one image stack or with DICOM files; or a
   /// pattern of files in one folder, as printf writes numbers (`slice%03d.png`) or as a shell does

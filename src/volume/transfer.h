@@ -20,7 +20,7 @@ struct TransferPoint {
   double r = 0;
   double g = 0;
   double b = 0;
-  double opacity = 0; ///< α per reference length Δ₀ (METHODS §0, opacity correction)
+  double opacity = 0; ///< α per reference length Δ₀ (docs/pipeline.md, opacity correction)
 };
 
 /// Piecewise linear through `points`, constant beyond the first and the last one. Colour is interpolated as

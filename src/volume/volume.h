@@ -63,7 +63,7 @@ void update_statistics(Volume& volume);
 /// The volume's box in world space: faces half a voxel outside the outer voxel centres.
 Box box_of(const Volume& volume);
 
-/// The smallest of the three spacings: h of METHODS §0.
+/// The smallest of the three spacings: h of docs/pipeline.md.
 double smallest_spacing(const Volume& volume);
 
 /// Calls `function` with a null pointer of the C++ type of `type`, so that code is written once for all

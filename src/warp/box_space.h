@@ -1,5 +1,5 @@
-// Box space, in which warps are evaluated (METHODS §0): the displayed volume scaled so that its longest edge
-// is 1 and circles are circles, whatever the voxels' shape.
+// Box space, in which warps are evaluated (docs/pipeline.md): the displayed volume scaled so that its longest
+// edge is 1 and circles are circles, whatever the voxels' shape.
 #pragma once
 
 #include "core/box.h"

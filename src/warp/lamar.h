@@ -13,8 +13,8 @@ namespace slicelens {
 enum class LensShape { circle, square };
 enum class LensBorder { simple, linear, cubic };
 
-/// The lens of LaMar, Hamann and Joy 2001 (METHODS §1). Lengths are fractions of the box's longest edge,
-/// measured across the viewing direction at the centre's depth (inner, outer) or along it (depth_inner,
+/// The lens of LaMar, Hamann and Joy 2001 (docs/papers/lamar.md). Lengths are fractions of the box's longest
+/// edge, measured across the viewing direction at the centre's depth (inner, outer) or along it (depth_inner,
 /// depth_outer).
 struct LamarLens {
   LensShape shape = LensShape::circle;

@@ -134,8 +134,8 @@ TEST_CASE("the tessellated border converges to the exact one at second order") {
     const double coarse = largest_shift(with({"warp.radial_segments=32"}), exact);
     const double fine = largest_shift(with({"warp.radial_segments=128"}), exact);
     CAPTURE(border, coarse, fine);
-    // METHODS §1: at 32 segments .00114 (linear), .00043 (cubic) of the outer radius; pixels meet the largest
-    // error nearly.
+    // docs/papers/lamar.md: at 32 segments .00114 (linear), .00043 (cubic) of the outer radius; pixels meet
+    // the largest error nearly.
     CHECK(coarse < 0.4 * (border == "linear" ? 0.00115 : 0.00044));
     CHECK(coarse > 0.2 * (border == "linear" ? 0.00115 : 0.00044));
     // Twice doubled: 16 for second order; the linear border is still approaching it (1.85 at 32).
@@ -247,7 +247,7 @@ TEST_CASE("the local magnification is Q inside, 1 outside, and that of the areas
                       make_image(100, 100));
   CHECK(magnification_at(prepared, {0.55, 0.5}) == Approx(4));
   CHECK(magnification_at(prepared, {0.95, 0.5}) == Approx(1));
-  // f = .05 + (r − .2)·1.75 (METHODS §1): at r = .3, f = .225, so 1/√(f'·f/r) = 1/√(1.75·.75).
+  // f = .05 + (r − .2)·1.75 (docs/papers/lamar.md): at r = .3, f = .225, so 1/√(f'·f/r) = 1/√(1.75·.75).
   CHECK(magnification_at(prepared, {0.5, 0.8}) == Approx(1 / std::sqrt(1.75 * 0.75)));
 }
 

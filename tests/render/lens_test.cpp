@@ -105,7 +105,7 @@ TEST_CASE("tessellation converges to the exact lens at second order in the radia
   }
   const double order = std::log2(errors[0] / errors[2]) / 2;
   INFO(errors[0] << " " << errors[1] << " " << errors[2] << ": order " << order);
-  CHECK(order > 1.6); // asymptotically 2: METHODS §1 gives 1.85 for the linear border at n = 32
+  CHECK(order > 1.6); // asymptotically 2: docs/papers/lamar.md gives 1.85 for the linear border at n = 32
   CHECK(order < 2.3);
 }
 

@@ -1,9 +1,9 @@
 // Slices, rays and the reference show the same scene.
 //
-// Bars. Orthographic slices and rays take the same samples (METHODS §0), so only rounding parts them: at most
-// 0.1 % of all values may differ by more than 1e-3, on volumes whose border is transparent (the rasteriser
-// snaps polygon edges to 1/256 pixel and so flips single samples on the box's outline). Each stays within 60
-// dB of the reference in double precision.
+// Bars. Orthographic slices and rays take the same samples (docs/pipeline.md), so only rounding parts them:
+// at most 0.1 % of all values may differ by more than 1e-3, on volumes whose border is transparent (the
+// rasteriser snaps polygon edges to 1/256 pixel and so flips single samples on the box's outline). Each stays
+// within 60 dB of the reference in double precision.
 #include "catch.h"
 #include "render_fixture.h"
 

@@ -1,4 +1,5 @@
-// Random lenses and views, and LaMar's lens written a second time from METHODS §1, to hold the program to.
+// Random lenses and views, and LaMar's lens written a second time from docs/papers/lamar.md, to hold the
+// program to.
 #pragma once
 
 #include "warp/lamar.h"
@@ -103,7 +104,7 @@ inline LensCase random_case(double widest) {
 inline double depth_inner(const LamarLens& lens) { return lens.depth_inner.value_or(lens.inner); }
 inline double depth_outer(const LamarLens& lens) { return lens.depth_outer.value_or(lens.outer); }
 
-/// Q on the plane at depth distance d (METHODS §1, "3D").
+/// Q on the plane at depth distance d (docs/papers/lamar.md, "3D").
 inline double zoom_at(const LamarLens& lens, double d) {
   if (d <= depth_inner(lens))
     return lens.zoom;
@@ -184,7 +185,7 @@ inline glm::dvec3 random_point(const LensCase& c) {
                   random_in(-reach, reach));
 }
 
-/// The inverse map by METHODS §1.
+/// The inverse map by docs/papers/lamar.md.
 inline glm::dvec3 expected_texture(const LensCase& c, const glm::dvec3& p) {
   const Across a = across_of(c, p);
   const double r = radius_of(c, a);

@@ -114,7 +114,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the radial errors of METHODS, to two digits") {
+TEST_CASE("the radial errors computed beforehand, to two digits") {
   struct Row {
     std::size_t segments;
     double linear;

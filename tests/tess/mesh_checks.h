@@ -76,7 +76,7 @@ inline double ring_radius(const LensCase& c, const Across& a) {
   return std::hypot(a.x, a.y) * std::cos(angle - middle) / std::cos(half);
 }
 
-/// The texture radius by METHODS §1: numerator and weight are linear between rings.
+/// The texture radius by docs/papers/lamar.md: numerator and weight are linear between rings.
 inline double segmented_profile(const LensCase& c, double zoom, double r) {
   const LamarLens& lens = c.lens;
   if (r <= lens.inner)

@@ -62,7 +62,7 @@ TEST_CASE("a view keeps its right angles in box space and its eye its place") {
   }));
 }
 
-TEST_CASE("any lens is the map that METHODS describes") {
+TEST_CASE("any lens is the map that its page describes") {
   CHECK(rc::check([] {
     const LensCase c = random_case(0.4);
     for (int i = 0; i < 20; ++i) {

@@ -72,7 +72,7 @@ TEST_CASE("values and slopes at both ends of the border") {
   }
 }
 
-TEST_CASE("any profile: the formulas of METHODS, its slope their derivative, rising for every zoom from 1") {
+TEST_CASE("any profile: the formulas of its page, its slope their derivative, rising for every zoom from 1") {
   CHECK(rc::check([] {
     LamarLens lens;
     lens.outer = random_in(0.1, 1);
