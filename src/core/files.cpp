@@ -27,6 +27,10 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
   }
   const fs::path temporary = folder / ("." + path.stem().string() + "." + std::to_string(::getpid()) +
                                        ".part" + path.extension().string());
+  // Made empty first: writers of other libraries say less clearly that they cannot.
+  if (std::ofstream probe(temporary, std::ios::binary); !probe) {
+    throw FileError(path.string(), "cannot be written in " + folder.string() + ": " + std::strerror(errno));
+  }
   try {
     write(temporary);
     fs::rename(temporary, path, error);

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "tess/homogeneous.h"
 #include "tess/shared_corners.h"
+#include "tess/square_frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -153,6 +154,17 @@ std::vector<Plane> outward_sides(const Footprint& at) {
   return sides;
 }
 
+/// The polygon's corners across the view, in units of the lens' radii at this depth.
+std::vector<glm::dvec2> seen_across(const LensPolygon& polygon, const Footprint& at) {
+  std::vector<glm::dvec2> corners;
+  for (const LensVertex& vertex : polygon) {
+    const glm::dvec3 offset = box_from_texture(at.space, vertex.position) - at.plane.axis_point;
+    corners.emplace_back(glm::dvec2(glm::dot(offset, at.lens.map.right), glm::dot(offset, at.lens.map.up)) /
+                         at.plane.scale);
+  }
+  return corners;
+}
+
 /// One side of the footprint, or one edge of the convex polygon, has the other wholly beyond it.
 bool apart(const LensPolygon& polygon, const Footprint& at, const std::vector<Plane>& sides) {
   for (const Plane& side : sides) {
@@ -160,12 +172,8 @@ bool apart(const LensPolygon& polygon, const Footprint& at, const std::vector<Pl
                     [&](const LensVertex& v) { return signed_value(side, v.position) >= 0; }))
       return true;
   }
-  std::vector<glm::dvec2> corners;
-  for (const LensVertex& vertex : polygon) {
-    const glm::dvec3 offset = box_from_texture(at.space, vertex.position) - at.plane.axis_point;
-    corners.emplace_back(glm::dot(offset, at.lens.map.right), glm::dot(offset, at.lens.map.up));
-  }
-  const double reach = at.lens.map.outer * at.plane.scale;
+  const std::vector<glm::dvec2> corners = seen_across(polygon, at);
+  const double reach = at.lens.map.outer;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const glm::dvec2 edge = corners[(i + 1) % corners.size()] - corners[i];
     glm::dvec2 normal(edge.y, -edge.x);
@@ -190,6 +198,14 @@ std::vector<LensPolygon> outside(const LensPolygon& polygon, const Footprint& at
       parts.push_back(std::move(part));
   };
   if (at.lens.bounded) {
+    for (const std::vector<std::size_t>& corners : frame_around_square(seen_across(polygon, at), outer)) {
+      LensPolygon part;
+      for (const std::size_t i : corners)
+        part.push_back(i < 4 ? at.still(outer * square_corners[i]) : polygon[i - 4]);
+      parts.push_back(std::move(part));
+    }
+    if (!parts.empty())
+      return parts;
     LensPolygon rest = polygon;
     for (const glm::dvec2& normal :
          {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {

@@ -76,6 +76,27 @@ bool in_line(const LensPolygon& polygon, std::uint32_t a, std::uint32_t b, std::
   return glm::length(glm::cross(e, f)) <= same_place * longest; // height of the triangle
 }
 
+/// Cuts off every second corner, round after round, while five or more are left, so that most of the new
+/// edges are short. Only of a polygon without corners inside edges: what is left of such a one has none
+/// either, and no triangle is flat.
+void cut_in_rounds(std::vector<std::array<std::uint32_t, 3>>& triangles, std::vector<std::uint32_t>& left,
+                   const LensPolygon& polygon) {
+  const std::size_t n = left.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (in_line(polygon, left[i], left[(i + 1) % n], left[(i + 2) % n]))
+      return;
+  }
+  while (left.size() > 4) {
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i < left.size(); i += 2) {
+      kept.push_back(left[i]);
+      if (i + 1 < left.size())
+        triangles.push_back({left[i], left[i + 1], left[(i + 2) % left.size()]});
+    }
+    left = std::move(kept);
+  }
+}
+
 } // namespace
 
 void share_corners(const std::vector<LensPolygon*>& polygons) {
@@ -104,6 +125,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(const LensPolygon& polygon
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> left(polygon.size());
   std::iota(left.begin(), left.end(), 0u);
+  cut_in_rounds(triangles, left, polygon);
   while (left.size() >= 3) {
     const std::size_t n = left.size();
     const auto at = [&](std::size_t i) { return left[i % n]; };
