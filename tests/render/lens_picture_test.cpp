@@ -120,6 +120,37 @@ TEST_CASE("outside the lens the picture is untouched") {
   CHECK(largest <= 1e-4);
 }
 
+TEST_CASE("every pixel around a lens anywhere in the picture is the image's") {
+  gl::Context context = test_context();
+  const int width = 150;
+  const int height = 100;
+  const Image card = test_card(width, height);
+  // In the middle, near a corner, touching and across the left edge. Fractions of the
+  // longer edge, so the outer radius is 30 pixels.
+  for (const std::string shape : {"circle", "square"}) {
+    for (const glm::dvec2 center : {glm::dvec2(0.5, 0.5), glm::dvec2(0.21, 0.32), glm::dvec2(0.77, 0.68),
+                                    glm::dvec2(0.2, 0.5), glm::dvec2(0.1, 0.5)}) {
+      CAPTURE(shape, center.x, center.y);
+      const std::string at = "[" + std::to_string(center.x) + "," + std::to_string(center.y) + "]";
+      const Image picture =
+          drawn(image_scene({"warp.shape=" + shape, "warp.center=" + at, "warp.inner=0.1", "warp.outer=0.2"}),
+                card, context);
+      double largest = 0;
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          const glm::dvec2 d = glm::abs(glm::dvec2(x + 0.5, y + 0.5) - center * glm::dvec2(width, height));
+          if ((shape == "circle" ? glm::length(d) : std::max(d.x, d.y)) < 30.01)
+            continue;
+          for (int c = 0; c < 4; ++c)
+            largest = std::max(
+                largest, std::abs(static_cast<double>(channel(picture, x, y, c)) - channel(card, x, y, c)));
+        }
+      }
+      CHECK(largest <= 1e-4); // texture coordinates in floats
+    }
+  }
+}
+
 TEST_CASE("the tessellated border converges to the exact one at second order") {
   gl::Context context = test_context();
   const Image source = ramp(256, 256);
