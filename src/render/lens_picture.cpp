@@ -118,7 +118,7 @@ double magnification_at(const PreparedPicture& prepared, const glm::dvec2& t) {
 }
 
 LensMesh picture_mesh(const PreparedPicture& prepared) {
-  if (prepared.scene.render.pipeline == LensPipeline::tessellated || prepared.lenses.empty())
+  if (draws_triangles(prepared.scene.render.pipeline) || prepared.lenses.empty())
     return tessellate_slice(image_polygon(), prepared.lenses, prepared.space, {});
   return cover_slice(image_polygon(), prepared.lenses, prepared.space, {});
 }

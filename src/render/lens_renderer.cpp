@@ -5,6 +5,7 @@
 #include "gl/state.h"
 #include "gl/texture.h"
 #include "gl/timer.h"
+#include "render/fixed_function.h"
 #include "render/render.h"
 #include "render/shaders.h"
 #include "render/uniforms.h"
@@ -63,6 +64,17 @@ glm::vec2 clip_corner(const PreparedPicture& prepared, const glm::dvec3& positio
   return glm::vec2(2 * pixel.x / prepared.width - 1, 1 - 2 * pixel.y / prepared.height);
 }
 
+/// The same for all points: an affine map of texture coordinates, z dropped.
+glm::mat4 clip_from_picture(const PreparedPicture& prepared) {
+  const glm::vec2 origin = clip_corner(prepared, {0, 0, 0});
+  glm::mat4 clip(1);
+  clip[0] = glm::vec4(clip_corner(prepared, {1, 0, 0}) - origin, 0, 0);
+  clip[1] = glm::vec4(clip_corner(prepared, {0, 1, 0}) - origin, 0, 0);
+  clip[2] = glm::vec4(0);
+  clip[3] = glm::vec4(origin, 0, 1);
+  return clip;
+}
+
 } // namespace
 
 PictureGeometry make_picture_geometry(const PreparedPicture& prepared) {
@@ -98,7 +110,7 @@ PictureRenderer::PictureRenderer(const gl::Functions& gl, const PreparedPicture&
       image_(upload_image(gl, prepared)), vertex_array_(gl::make_vertex_array(gl)) {
   const gl::StateGuard guard(gl);
   WarpTable table;
-  if (prepared.scene.render.pipeline != LensPipeline::tessellated && !prepared.lenses.empty())
+  if (!draws_triangles(prepared.scene.render.pipeline) && !prepared.lenses.empty())
     lens_ = make_picture_program(gl, macros_of(prepared, true));
   if (prepared.scene.render.pipeline == LensPipeline::lookup && lens_) {
     table = warp_table(prepared);
@@ -191,14 +203,27 @@ PictureResult render_picture(const PreparedPicture& prepared, gl::Context* conte
     const gl::Functions& gl = context->functions();
     const gl::Target target =
         gl::make_target(gl, prepared.width, prepared.height, texture_format(prepared.scene.render.target));
-    const PictureRenderer renderer(gl, prepared);
-    result.draw_seconds = gl::elapsed_seconds(gl, [&] { renderer.draw(target); });
+    const auto draw = [&](auto& renderer, const auto& work) {
+      result.draw_seconds = gl::elapsed_seconds(gl, work);
+      result.triangles = renderer.triangle_count();
+    };
+    if (prepared.scene.render.pipeline == LensPipeline::fixed_function) {
+      FixedFunctionRenderer renderer(*context);
+      renderer.set_geometry(picture_mesh(prepared));
+      const gl::Texture image = upload_image(gl, prepared);
+      const glm::mat4 clip = clip_from_picture(prepared);
+      draw(renderer, [&] {
+        renderer.draw({GL_TEXTURE_2D, image.name()}, clip, Order::back_to_front, target, {});
+      });
+    } else {
+      const PictureRenderer renderer(gl, prepared);
+      draw(renderer, [&] { renderer.draw(target); });
+    }
     result.image = make_image(target.width, target.height);
     result.image.pixels = gl::read_pixels(gl, target);
     result.renderer = context->info().renderer;
     result.version = context->info().version;
     result.context = context->info().kind;
-    result.triangles = renderer.triangle_count();
   }
   put_over_background(result.image, prepared.scene.render.background);
   draw_overlays(result.image, prepared);

@@ -24,8 +24,8 @@ void image_keys(Visitor& visit, Settings& s) {
 template <class Visitor, class Settings>
 void image_render_keys(Visitor& visit, Settings& s) {
   visit.key("pipeline", s.pipeline,
-            "where the lens is evaluated: tessellated (per vertex), fragment, lookup (a table of RG32F "
-            "texels) or reference (CPU, double)");
+            "where the lens is evaluated: tessellated (per vertex), fixed-function (per vertex, without "
+            "shaders, 8 bits), fragment, lookup (a table of RG32F texels) or reference (CPU, double)");
   visit.key("size", s.size,
             "picture [width, height] in pixels (none: the image's own); the image is fitted into it");
   visit.key("filter", s.filter,
@@ -100,13 +100,29 @@ void validate_size(const std::array<std::size_t, 2>& size, const std::string& ke
 
 const std::vector<EnumName<LensPipeline>>& names_of(LensPipeline) {
   static const std::vector<EnumName<LensPipeline>> names = {{LensPipeline::tessellated, "tessellated"},
+                                                            {LensPipeline::fixed_function, "fixed-function"},
                                                             {LensPipeline::fragment, "fragment"},
                                                             {LensPipeline::lookup, "lookup"},
                                                             {LensPipeline::reference, "reference"}};
   return names;
 }
 
+bool draws_triangles(LensPipeline pipeline) {
+  return pipeline == LensPipeline::tessellated || pipeline == LensPipeline::fixed_function;
+}
+
 void validate(const ImageScene& scene) {
+  if (scene.render.pipeline == LensPipeline::fixed_function) {
+    const auto refuse = [](const std::string& problem, const std::string& key, const std::string& value) {
+      throw UsageError("pipeline 'fixed-function' " + problem + "; set " + key + " to " + value);
+    };
+    if (scene.render.target != Target::rgba8)
+      refuse("draws into the papers' 8 bits", "render.target", "rgba8");
+    if (scene.render.image_texture != TransferTexture::rgba8)
+      refuse("holds the image in 8 bits", "render.image_texture", "rgba8");
+    if (scene.render.filter == Filter::linear_exact)
+      refuse("has no filter 'linear-exact', which is a shader's", "render.filter", "linear or nearest");
+  }
   const ImageSettings& image = scene.image;
   const int given = (image.file ? 1 : 0) + (image.checkerboard ? 1 : 0) + (image.testcard ? 1 : 0);
   if (given != 1)
@@ -128,7 +144,7 @@ void validate(const ImageScene& scene) {
                      std::to_string(scene.render.lookup_size));
   }
   validate(scene.overlay);
-  if (scene.overlay.wireframe != Wireframe::none && scene.render.pipeline != LensPipeline::tessellated) {
+  if (scene.overlay.wireframe != Wireframe::none && !draws_triangles(scene.render.pipeline)) {
     throw UsageError("overlay.wireframe shows the triangles of pipeline 'tessellated'; '" +
                      word(scene.render.pipeline) + "' has none");
   }
@@ -137,7 +153,7 @@ void validate(const ImageScene& scene) {
     const auto* lens = std::get_if<LamarLens>(&warp);
     if (lens == nullptr)
       throw UsageError("warp '" + kind_of(warp) + "' has no form for pictures; give lamar");
-    if (!lens->homogeneous && scene.render.pipeline != LensPipeline::tessellated) {
+    if (!lens->homogeneous && !draws_triangles(scene.render.pipeline)) {
       throw UsageError("homogeneous false is about corners of triangles; pipeline '" +
                        word(scene.render.pipeline) + "' has none, give tessellated");
     }
@@ -159,6 +175,12 @@ ImageScene image_scene_from_json(const std::string& text, const std::string& sou
     reader.finish();
     if (!scene.image.file && !scene.image.checkerboard && !scene.image.testcard)
       scene.image.testcard.emplace();
+    if (scene.render.pipeline == LensPipeline::fixed_function) {
+      if (!has_value(json, "render", "target"))
+        scene.render.target = Target::rgba8;
+      if (!has_value(json, "render", "image_texture"))
+        scene.render.image_texture = TransferTexture::rgba8;
+    }
     validate(scene);
   } catch (const UsageError& error) {
     throw UsageError(source + ": " + error.what());

@@ -27,8 +27,9 @@ struct ImageSettings {
 };
 
 /// Where the lens is evaluated: at the corners of triangles (the paper), at each fragment, in a table of
-/// RG32F texels (the paper's future work), or on the CPU in double precision.
-enum class LensPipeline { tessellated, fragment, lookup, reference };
+/// RG32F texels (the paper's future work), or on the CPU in double precision; `fixed_function` draws the
+/// triangles without shaders, from and into 8 bits, as the paper's hardware did.
+enum class LensPipeline { tessellated, fixed_function, fragment, lookup, reference };
 
 /// Section `render`.
 struct ImageRenderSettings {
@@ -54,6 +55,9 @@ struct ImageScene {
 };
 
 const std::vector<EnumName<LensPipeline>>& names_of(LensPipeline);
+
+/// Whether a pipeline draws the triangles of a tessellation.
+bool draws_triangles(LensPipeline pipeline);
 
 /// The most pixels of a picture: 1 GiB of RGBA floats.
 inline constexpr std::size_t max_image_pixels = std::size_t{1} << 26;

@@ -317,3 +317,39 @@ TEST_CASE("lenses that cannot be are refused") {
   refused({"render.lookup_size=1"});
   refused({"render.size=[20000,20000]"});
 }
+
+TEST_CASE("the fixed-function picture equals the shader's triangles with 8 bits, to 2/255") {
+  // Both hold the image in RGBA8, filter it by the driver and write RGBA8; only rounding may differ.
+  const Image card = test_card(96, 96);
+  for (const std::vector<std::string>& lens :
+       {std::vector<std::string>{"warp.shape=circle", "warp.border=cubic"},
+        {"warp.shape=square", "warp.border=linear"},
+        {"warp.homogeneous=false", "warp.shape=square"}}) {
+    std::vector<std::string> keys = {
+        "render.size=[96,96]", "render.filter=linear", "render.target=rgba8", "render.image_texture=rgba8",
+        "warp.zoom=3",         "warp.inner=0.2",       "warp.outer=0.35",     off_center};
+    keys.insert(keys.end(), lens.begin(), lens.end());
+    Image shaders;
+    {
+      gl::Context context = test_context();
+      shaders = drawn(image_scene(keys), card, context);
+    }
+    keys.emplace_back("render.pipeline=fixed-function");
+    gl::Context compatibility = test_context(gl::Profile::compatibility);
+    const Image fixed = drawn(image_scene(keys), card, compatibility);
+    INFO(lens[0]);
+    CHECK(max_difference(shaders, fixed) <= 2.0 / 255 + 1e-6);
+    CHECK(max_difference(fixed, make_image(96, 96)) > 0.5); // something was drawn
+  }
+}
+
+TEST_CASE("fixed function takes 8 bits by itself and refuses what it cannot do") {
+  const ImageScene scene = image_scene_from_json(R"({"render":{"pipeline":"fixed-function"}})", "test");
+  CHECK(scene.render.target == Target::rgba8);
+  CHECK(scene.render.image_texture == TransferTexture::rgba8);
+  CHECK_THROWS_AS(image_scene({"render.pipeline=fixed-function"}),
+                  UsageError); // linear-exact is a shader's filter
+  CHECK_THROWS_AS(
+      image_scene({"render.pipeline=fixed-function", "render.filter=linear", "render.target=rgba32f"}),
+      UsageError);
+}

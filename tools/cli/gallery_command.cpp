@@ -197,6 +197,8 @@ private:
   PictureResult draw_lens(const ImageSceneInput& input) {
     Scene wanted;
     wanted.render.context = input.scene.render.context;
+    if (input.scene.render.pipeline == LensPipeline::fixed_function)
+      wanted.render.pipeline = Pipeline::fixed_function; // which needs a compatibility context
     const PreparedPicture prepared =
         prepare_picture(input.scene, load_image(input.scene.image, input.folders));
     open_context(context_, wanted);

@@ -66,6 +66,8 @@ void run_lens(const LensOptions& options) {
   if (input.scene.render.pipeline != LensPipeline::reference) {
     Scene wanted;
     wanted.render.context = input.scene.render.context;
+    if (input.scene.render.pipeline == LensPipeline::fixed_function)
+      wanted.render.pipeline = Pipeline::fixed_function; // which needs a compatibility context
     context.emplace(open_context_for(wanted));
   }
   PictureResult result = render_picture(prepared, context ? &*context : nullptr);
