@@ -88,10 +88,11 @@ PixelDepth pixel_depth(const fs::path& path, const std::string& name) {
       return PixelDepth::png16;
     throw UsageError(path.string() + ": depth '" + name + "' does not fit PNG; use 8 or 16, or write .exr");
   }
-  if (name.empty() || name == "half")
-    return PixelDepth::exr_half;
-  if (name == "float")
+  // The composited values unchanged are floats.
+  if (name.empty() || name == "float")
     return PixelDepth::exr_float;
+  if (name == "half")
+    return PixelDepth::exr_half;
   throw UsageError(path.string() + ": depth '" + name +
                    "' does not fit EXR; use half or float, or write .png");
 }

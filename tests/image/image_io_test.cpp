@@ -153,7 +153,8 @@ TEST_CASE("extension and depth must fit") {
   const Scratch scratch("depth");
   CHECK(pixel_depth("a.png") == PixelDepth::png8);
   CHECK(pixel_depth("a.PNG", "16") == PixelDepth::png16);
-  CHECK(pixel_depth("a.exr") == PixelDepth::exr_half);
+  CHECK(pixel_depth("a.exr") == PixelDepth::exr_float);
+  CHECK(pixel_depth("a.exr", "half") == PixelDepth::exr_half);
   CHECK(pixel_depth("a.exr", "float") == PixelDepth::exr_float);
   CHECK_THROWS_AS(pixel_depth("a.exr", "8"), UsageError);
   CHECK_THROWS_AS(pixel_depth("a.png", "half"), UsageError);

@@ -51,7 +51,7 @@ void add_render(CLI::App& app, RenderOptions& options, std::function<void()>& ru
   add_set(command, options.set);
   command
       .add_option("--depth", options.depth,
-                  "8 or 16 for .png (default 8), half or float for .exr (default half)")
+                  "8 or 16 for .png (default 8), half or float for .exr (default float)")
       ->type_name("DEPTH");
   command.add_flag("--print-scene", options.print_scene,
                    "print the scene with every default filled in, and do nothing else");
@@ -88,7 +88,7 @@ void add_lens(CLI::App& app, LensOptions& options, std::function<void()>& run) {
                    "show the local magnification in false colours, with a bar");
   command
       .add_option("--depth", options.depth,
-                  "8 or 16 for .png (default 8), half or float for .exr (default half)")
+                  "8 or 16 for .png (default 8), half or float for .exr (default float)")
       ->type_name("DEPTH");
   command.add_flag("--print-scene", options.print_scene,
                    "print the scene with every default filled in, and do nothing else");
