@@ -14,9 +14,9 @@ namespace slicelens {
 /// floats.
 enum class PixelDepth { png8, png16, exr_half, exr_float };
 
-/// The depth that `name` ("8", "16", "half", "float", or "" for the usual one: 8 for PNG, float for EXR) means
-/// for the extension of `path` (case does not matter). Throws UsageError naming .png and .exr for another
-/// extension, and the depths that would fit for a name that does not.
+/// The depth that `name` ("8", "16", "half", "float", or "" for the usual one: 8 for PNG, float for EXR)
+/// means for the extension of `path` (case does not matter). Throws UsageError naming .png and .exr for
+/// another extension, and the depths that would fit for a name that does not.
 PixelDepth pixel_depth(const std::filesystem::path& path, const std::string& name = "");
 
 /// Writes `image` with its metadata; the same image gives the same bytes (no time stamp).

@@ -5,8 +5,6 @@
 #include "scene/camera.h"
 #include "volume/pyramid.h"
 
-#include <cmath>
-
 #include <algorithm>
 #include <cmath>
 
