@@ -6,11 +6,11 @@
 uniform vec2 value_from_texel;  // data value = x · texel + y
 
 #ifdef FILTER_LINEAR_EXACT
-float texel_at(sampler3D voxels, ivec3 i, ivec3 last) { return texelFetch(voxels, clamp(i, ivec3(0), last), 0).r; }
+vec4 texel_at(sampler3D voxels, ivec3 i, ivec3 last) { return texelFetch(voxels, clamp(i, ivec3(0), last), 0); }
 #endif
 
 // What the texture holds at t: values in its own unit, which filtering leaves alone.
-float filtered_texel(sampler3D voxels, vec3 t) {
+vec4 filtered_texels(sampler3D voxels, vec3 t) {
 #ifdef FILTER_LINEAR_EXACT
   ivec3 size = textureSize(voxels, 0);
   vec3 position = clamp(t * vec3(size) - 0.5, vec3(-0.5), vec3(size) - 0.5);
@@ -18,15 +18,17 @@ float filtered_texel(sampler3D voxels, vec3 t) {
   vec3 f = position - lower;
   ivec3 i = ivec3(lower);
   ivec3 last = size - 1;
-  float v00 = mix(texel_at(voxels, i, last), texel_at(voxels, i + ivec3(1, 0, 0), last), f.x);
-  float v10 = mix(texel_at(voxels, i + ivec3(0, 1, 0), last), texel_at(voxels, i + ivec3(1, 1, 0), last), f.x);
-  float v01 = mix(texel_at(voxels, i + ivec3(0, 0, 1), last), texel_at(voxels, i + ivec3(1, 0, 1), last), f.x);
-  float v11 = mix(texel_at(voxels, i + ivec3(0, 1, 1), last), texel_at(voxels, i + ivec3(1, 1, 1), last), f.x);
+  vec4 v00 = mix(texel_at(voxels, i, last), texel_at(voxels, i + ivec3(1, 0, 0), last), f.x);
+  vec4 v10 = mix(texel_at(voxels, i + ivec3(0, 1, 0), last), texel_at(voxels, i + ivec3(1, 1, 0), last), f.x);
+  vec4 v01 = mix(texel_at(voxels, i + ivec3(0, 0, 1), last), texel_at(voxels, i + ivec3(1, 0, 1), last), f.x);
+  vec4 v11 = mix(texel_at(voxels, i + ivec3(0, 1, 1), last), texel_at(voxels, i + ivec3(1, 1, 1), last), f.x);
   return mix(mix(v00, v10, f.y), mix(v01, v11, f.y), f.z);
 #else
-  return textureLod(voxels, t, 0.0).r;
+  return textureLod(voxels, t, 0.0);
 #endif
 }
+
+float filtered_texel(sampler3D voxels, vec3 t) { return filtered_texels(voxels, t).r; }
 
 #ifdef LEVELS
 #include "lib/levels.glsl"

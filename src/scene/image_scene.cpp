@@ -162,11 +162,7 @@ void validate(const ImageScene& scene) {
 
 ImageScene image_scene_from_json(const std::string& text, const std::string& source,
                                  const std::vector<KeyValue>& changes) {
-  Json json = parse_text(text, source);
-  if (!json.is_object())
-    throw UsageError(source + ": a scene is a JSON object { … }");
-  for (const KeyValue& change : changes)
-    apply(json, change);
+  Json json = changed_document(text, source, changes);
   ImageScene scene;
   try {
     widen_lenses(json);

@@ -1,14 +1,13 @@
-// Between JSON and the key tables (scene/keys.h): reading, writing, listing, and changing single keys. For
+// Between JSON and the key tables (scene/keys.h): reading, writing and listing. For
 // the scene readers of this folder only.
 #pragma once
 
 #include "core/errors.h"
 #include "core/text.h"
+#include "scene/json_document.h"
 #include "scene/keys.h"
 #include "scene/names.h"
 #include "scene/scene_json.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +15,6 @@
 #include <type_traits>
 
 namespace slicelens::keys_json {
-
-using Json = nlohmann::ordered_json;
 
 [[noreturn]] inline void refuse(const std::string& path, const Json& value, const std::string& wanted) {
   std::string text = value.dump();
@@ -378,111 +375,5 @@ struct Lister {
     visit_keys(lister, entry);
   }
 };
-
-// ---- changing single keys
-// -------------------------------------------------------------------------------------------
-
-/// Groups of which only one member may stand in a section; setting one by --set removes the others.
-struct Alternatives {
-  const char* section;
-  std::vector<std::vector<const char*>> members;
-};
-
-inline const std::vector<Alternatives>& alternatives() {
-  static const std::vector<Alternatives> groups = {
-      {"volume", {{"file"}, {"phantom"}}},
-      {"transfer", {{"preset"}, {"points"}}},
-      {"camera", {{"position"}, {"azimuth", "elevation", "roll"}}},
-      {"image", {{"file"}, {"checkerboard"}, {"testcard"}}},
-  };
-  return groups;
-}
-
-inline void remove_alternatives(Json& section, const std::string& section_name, const std::string& key) {
-  if (!section.is_object())
-    return; // nothing set in it yet
-  for (const Alternatives& group : alternatives()) {
-    if (section_name != group.section)
-      continue;
-    const auto has = [&](const std::vector<const char*>& member) {
-      return std::any_of(member.begin(), member.end(), [&](const char* name) { return key == name; });
-    };
-    if (std::none_of(group.members.begin(), group.members.end(), has))
-      continue;
-    for (const auto& member : group.members) {
-      if (has(member))
-        continue;
-      for (const char* name : member)
-        section.erase(name);
-    }
-  }
-}
-
-inline Json value_of(const std::string& text) {
-  Json value = Json::parse(text, nullptr, false);
-  return value.is_discarded() ? Json(text) : value;
-}
-
-inline std::vector<std::string> split_key(const std::string& key) {
-  std::vector<std::string> parts(1);
-  for (const char c : key) {
-    if (c == '.' || c == '[') {
-      if (!parts.back().empty())
-        parts.emplace_back();
-    } else if (c != ']') {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
-inline void apply(Json& scene, const KeyValue& change) {
-  const std::vector<std::string> parts = split_key(change.key);
-  Json* node = &scene;
-  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-    if (node->is_array()) {
-      const std::size_t index = std::strtoul(parts[i].c_str(), nullptr, 10);
-      if (parts[i].find_first_not_of("0123456789") != std::string::npos || index >= node->size()) {
-        throw UsageError("--set " + change.key + ": the list has " + std::to_string(node->size()) +
-                         " entries; name one from 0, or set the whole list");
-      }
-      node = &(*node)[index];
-    } else {
-      if (!node->is_object() && !node->is_null()) {
-        throw UsageError("--set " + change.key + ": '" + parts[i] + "' is inside a value that has no keys");
-      }
-      node = &(*node)[parts[i]];
-    }
-  }
-  if (!node->is_object() && !node->is_null())
-    throw UsageError("--set " + change.key + ": set the whole list or value instead");
-  const Json value = value_of(change.value);
-  if (parts.size() == 2 && !value.is_null())
-    remove_alternatives(*node, parts[0], parts[1]);
-  (*node)[parts.back()] = value;
-}
-
-inline bool has_value(const Json& json, const char* section, const char* key) {
-  const auto found = json.find(section);
-  return found != json.end() && found->is_object() && found->contains(key) && !(*found)[key].is_null();
-}
-
-inline Json parse_text(const std::string& text, const std::string& source) {
-  try {
-    return Json::parse(text, nullptr, true, true);
-  } catch (const Json::parse_error& error) {
-    std::size_t line = 1;
-    std::size_t column = 1;
-    for (std::size_t i = 0; i + 1 < error.byte && i < text.size(); ++i) {
-      ++column;
-      if (text[i] == '\n') {
-        ++line;
-        column = 1;
-      }
-    }
-    throw UsageError(source + ": not valid JSON at line " + std::to_string(line) + ", column " +
-                     std::to_string(column) + "; look for a missing comma, quote or bracket");
-  }
-}
 
 } // namespace slicelens::keys_json

@@ -16,11 +16,7 @@ KeyValue parse_assignment(const std::string& text) {
 
 Scene scene_from_json(const std::string& text, const std::string& source,
                       const std::vector<KeyValue>& changes) {
-  Json json = parse_text(text, source);
-  if (!json.is_object())
-    throw UsageError(source + ": a scene is a JSON object { … }");
-  for (const KeyValue& change : changes)
-    apply(json, change);
+  const Json json = changed_document(text, source, changes);
   Scene scene;
   try {
     Reader reader(json, "");

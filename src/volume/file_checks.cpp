@@ -197,4 +197,24 @@ std::string head_of(const fs::path& path, std::size_t limit) {
   return text;
 }
 
+std::vector<std::filesystem::path> existing_data_files(const std::filesystem::path& header,
+                                                       const std::vector<std::string>& names,
+                                                       const std::string& none) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& name : names) {
+    const std::filesystem::path named(name);
+    const std::filesystem::path file = named.is_absolute() ? named : header.parent_path() / named;
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) {
+      throw FileError(header.string(),
+                      "its data file '" + one_line(name) + "' is missing; put it beside the header");
+    }
+    require_file(file);
+    files.push_back(file);
+  }
+  if (files.empty())
+    throw FileError(header.string(), none);
+  return files;
+}
+
 } // namespace slicelens

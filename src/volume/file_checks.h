@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,6 +20,17 @@ enum class Encoding {
 
 /// Throws FileError unless `path` is a regular, readable file that is not empty. Returns its size in bytes.
 std::uintmax_t require_file(const std::filesystem::path& path);
+
+/// The data files that a header names, relative to its folder. Throws FileError naming `header` and the first
+/// one that is missing, `none` when there are no names, and as require_file does.
+std::vector<std::filesystem::path> existing_data_files(const std::filesystem::path& header,
+                                                       const std::vector<std::string>& names,
+                                                       const std::string& none);
+
+/// Closes a C file, for std::unique_ptr.
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
 
 /// Product of `sizes` and `unit` (bytes of one voxel). Throws FileError naming `field` when a size is not
 /// positive or the product does not fit 63 bits.

@@ -18,10 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 /// libjpeg's error manager with a way out: its error_exit must not return.
 struct Failure {
   jpeg_error_mgr manager{}; // first, so that libjpeg's pointer to it points to this too

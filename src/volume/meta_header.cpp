@@ -99,19 +99,7 @@ std::vector<fs::path> data_files_of(const fs::path& path, const MetaHeader& head
       names = {named};
     }
   }
-  std::vector<fs::path> files;
-  for (const std::string& name : names) {
-    const fs::path file = fs::path(name).is_absolute() ? fs::path(name) : path.parent_path() / name;
-    std::error_code error;
-    if (!fs::exists(file, error))
-      throw FileError(path.string(),
-                      "its data file '" + one_line(name) + "' is missing; put it beside the header");
-    require_file(file);
-    files.push_back(file);
-  }
-  if (files.empty())
-    throw FileError(path.string(), "'ElementDataFile = LIST' lists no files");
-  return files;
+  return existing_data_files(path, names, "'ElementDataFile = LIST' lists no files");
 }
 
 /// Numbers that place the volume must be finite, and distances positive: MetaIO would take what it finds.

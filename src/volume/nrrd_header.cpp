@@ -155,19 +155,7 @@ std::vector<fs::path> data_files_of(const fs::path& path, const NrrdHeader& head
       names = {*named};
     }
   }
-  std::vector<fs::path> files;
-  for (const std::string& name : names) {
-    const fs::path file = fs::path(name).is_absolute() ? fs::path(name) : path.parent_path() / name;
-    std::error_code error;
-    if (!fs::exists(file, error))
-      throw FileError(path.string(),
-                      "its data file '" + one_line(name) + "' is missing; put it beside the header");
-    require_file(file);
-    files.push_back(file);
-  }
-  if (files.empty())
-    throw FileError(path.string(), "'data file: LIST' lists no files");
-  return files;
+  return existing_data_files(path, names, "'data file: LIST' lists no files");
 }
 
 long long skip_of(const fs::path& path, const NrrdHeader& header, const std::string& name,

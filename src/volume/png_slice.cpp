@@ -19,10 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 /// The message of libpng's error; its handler must not return and leaves by longjmp.
 struct Failure {
   std::array<char, 128> text{};
