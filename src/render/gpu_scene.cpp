@@ -82,7 +82,7 @@ gl::Texture upload_volume(const gl::Functions& gl, const Volume& volume, Filter 
                           const Coding& coding, const Progress& progress) {
   gl::TextureSpec spec;
   spec.format = format;
-  spec.filter = filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
+  spec.filter = texture_filter(filter);
   const std::array<int, 3> size = {static_cast<int>(std::min<std::size_t>(volume.dims[0], INT32_MAX)),
                                    static_cast<int>(std::min<std::size_t>(volume.dims[1], INT32_MAX)),
                                    static_cast<int>(std::min<std::size_t>(volume.dims[2], INT32_MAX))};
@@ -153,6 +153,10 @@ VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type) {
   if (wish != VolumeTexture::automatic)
     return wish;
   return size_of(type) <= 2 ? VolumeTexture::r16 : VolumeTexture::r32f;
+}
+
+GLenum texture_filter(Filter filter) {
+  return filter == Filter::linear || filter == Filter::cubic ? GL_LINEAR : GL_NEAREST;
 }
 
 GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Progress& progress) {

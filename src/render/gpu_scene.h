@@ -27,6 +27,10 @@ struct GpuScene {
 /// holds exactly, else r32f. Not r8: software drivers filter 8-bit textures to 8 bits (docs/accuracy.md).
 VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type);
 
+/// How the driver filters the texture of a volume for render.filter: linearly as well where shaders build the
+/// cubic B-spline from linear fetches (shaders/gpu/volume.glsl).
+GLenum texture_filter(Filter filter);
+
 /// Uploads both. Integers are stored so that they come back exactly where the format has the bits; otherwise
 /// values are scaled to the format over the volume's range. Non-finite voxels become the smallest finite
 /// value. Throws LimitError where the driver has no room.
