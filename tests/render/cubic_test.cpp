@@ -204,7 +204,7 @@ TEST_CASE("the X-ray of few voxels is the integral of their B-spline, edges and 
 
 TEST_CASE("the cubic filter on the GPU is the reference's", "[one-driver]") {
   // 60 dB as for linear-exact (docs/tolerances.md), because llvmpipe's own filter of 16 and 32 bits is float:
-  // 82 to 146 dB. Hardware that filters with weights of 8 bits is not held to it.
+  // 82 to 146 dB. softpipe's is wrong at single samples.
   gl::Context context = test_context();
   const PreparedScene head = head_scene();
   const std::vector<std::vector<std::string>> settings = {
