@@ -1,0 +1,185 @@
+#include "study/axis_tables_page.h"
+
+#include "core/errors.h"
+#include "core/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace slicelens {
+
+namespace {
+
+using Texels = std::vector<glm::vec4>;
+
+constexpr int offset = 0, mask = 1, attenuation = 2, highlight = 3; // channels R, G, B, A
+
+double texel_center(std::size_t j, std::size_t count) {
+  return (static_cast<double>(j) + 0.5) / static_cast<double>(count);
+}
+
+/// What a linear filter with clamped ends reads: straight lines between the texels, level outside them.
+std::vector<glm::dvec2> filtered(const Texels& texels, int channel) {
+  std::vector<glm::dvec2> points = {{0, texels.front()[channel]}};
+  for (std::size_t j = 0; j < texels.size(); ++j)
+    points.push_back({texel_center(j, texels.size()), texels[j][channel]});
+  points.push_back({1, texels.back()[channel]});
+  return points;
+}
+
+/// What a nearest fetch reads: each texel over its own width.
+std::vector<glm::dvec2> steps(const Texels& texels, int channel) {
+  std::vector<glm::dvec2> points;
+  const double count = static_cast<double>(texels.size());
+  for (std::size_t j = 0; j < texels.size(); ++j) {
+    const double value = texels[j][channel];
+    points.push_back({static_cast<double>(j) / count, value});
+    points.push_back({static_cast<double>(j + 1) / count, value});
+  }
+  return points;
+}
+
+PlotSeries curve(std::vector<glm::dvec2> points, std::uint32_t rgb) {
+  PlotSeries series;
+  series.points = std::move(points);
+  series.rgb = rgb;
+  return series;
+}
+
+/// A panel over the displayed coordinate with the focus marked.
+PlotPanel panel(const FocusMarks& marks, PlotSeries series) {
+  PlotPanel result;
+  result.x.range = std::pair{0.0, 1.0};
+  result.y.range = std::pair{-0.05, 1.05};
+  if (marks.shown) {
+    const auto [low, high] = *marks.shown;
+    result.regions.push_back({low, high});
+    result.markers.push_back({low, "", PlotMarker::Side::left});
+    result.markers.push_back({high, "", PlotMarker::Side::right});
+  }
+  if (marks.center)
+    result.markers.push_back({*marks.center, "", PlotMarker::Side::center});
+  result.series = {std::move(series)};
+  return result;
+}
+
+/// The first row's panel, which names the axis and the marks for all below it.
+PlotPanel mapping_panel(char axis, const Texels& texels, const FocusMarks& marks) {
+  const std::string letter(1, axis);
+  PlotSeries map = curve(filtered(texels, offset), 0xb02a2a);
+  for (glm::dvec2& point : map.points)
+    point.y += point.x;
+  map.name = letter + " + offset";
+  PlotPanel result = panel(marks, map);
+  result.title = letter + " axis";
+  const bool narrow = marks.shown && marks.shown->second - marks.shown->first < 0.15;
+  for (PlotMarker& marker : result.markers) {
+    if (marker.side != PlotMarker::Side::center)
+      marker.label = letter + (marker.side == PlotMarker::Side::left ? "'_min" : "'_max");
+    else if (!narrow) // there is no room between the two other labels
+      marker.label = letter + "_f";
+  }
+  PlotSeries identity = curve({{0, 0}, {1, 1}}, 0x777777);
+  identity.name = "identity";
+  identity.width = 1;
+  identity.line = LineStyle::dashed;
+  result.series.insert(result.series.begin(), identity);
+  result.key = KeyPlace::top_left;
+  for (const glm::dvec2& point : map.points) { // a map that leaves the volume is shown in full
+    result.y.range->first = std::min(result.y.range->first, point.y - 0.05);
+    result.y.range->second = std::max(result.y.range->second, point.y + 0.05);
+  }
+  return result;
+}
+
+PlotPanel mask_panel(const Texels& texels, const FocusMarks& marks) {
+  PlotPanel result = panel(marks, curve(steps(texels, mask), 0x2a7d3b));
+  result.y.range = std::pair{-0.15, 1.15};
+  result.y.ticks = {{0, "0"}, {1, "1"}};
+  return result;
+}
+
+std::uint32_t packed(const glm::dvec3& color) {
+  std::uint32_t rgb = 0;
+  for (int c = 0; c < 3; ++c)
+    rgb = rgb << 8 | static_cast<std::uint32_t>(std::lround(255 * std::clamp(color[c], 0.0, 1.0)));
+  return rgb;
+}
+
+std::uint32_t texel_color(const glm::vec4& texel, int channel, double largest_offset) {
+  if (channel != offset)
+    return packed(glm::dvec3(texel[channel]));
+  return diverging_color(largest_offset > 0 ? texel.x / largest_offset : 0);
+}
+
+/// Texels of one colour become one box. Each but the last reaches one texel further, under the next one, so
+/// that no seam of background shows between them.
+void add_strip(std::vector<PlotBox>& boxes, const Texels& texels, int channel, double largest_offset) {
+  const double top = 4 - channel;
+  const auto color = [&](std::size_t j) { return texel_color(texels[j], channel, largest_offset); };
+  for (std::size_t j = 0, next = 0; j < texels.size(); j = next) {
+    next = j + 1;
+    while (next < texels.size() && color(next) == color(j))
+      ++next;
+    const double end = static_cast<double>(std::min(next + 1, texels.size()));
+    boxes.push_back({{static_cast<double>(j), top - 0.92}, {end, top - 0.08}, color(j)});
+  }
+}
+
+PlotPanel texel_panel(char axis, const Texels& texels) {
+  PlotPanel result;
+  double largest = 0;
+  for (const glm::vec4& texel : texels)
+    largest = std::max(largest, std::abs(static_cast<double>(texel.x)));
+  char text[64];
+  std::snprintf(text, sizeof text, "%c texture, |offset| up to %.3g", axis, largest);
+  result.title = text;
+  result.x.label = "texel";
+  result.x.range = std::pair{0.0, static_cast<double>(texels.size())};
+  result.y.range = std::pair{0.0, 4.0};
+  result.y.ticks = {{3.5, "offset"}, {2.5, "mask"}, {1.5, "attenuation"}, {0.5, "highlight"}};
+  result.grid = false;
+  result.regions = {{0, static_cast<double>(texels.size()), 0xe4e4e4}}; // white texels must be seen
+  for (const int channel : {offset, mask, attenuation, highlight})
+    add_strip(result.boxes, texels, channel, largest);
+  return result;
+}
+
+} // namespace
+
+std::uint32_t diverging_color(double value) {
+  const double t = std::clamp(value, -1.0, 1.0);
+  const glm::dvec3 end = t < 0 ? glm::dvec3(0.13, 0.36, 0.70) : glm::dvec3(0.72, 0.12, 0.15);
+  return packed(glm::mix(glm::dvec3(1), end, std::abs(t)));
+}
+
+PlotPage axis_tables_page(const std::string& title, const std::array<Texels, 3>& texels,
+                          const std::array<FocusMarks, 3>& marks) {
+  const char* const names = "xyz";
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (texels[a].empty())
+      throw UsageError(std::string("axis tables: there are no texels along ") + names[a]);
+  }
+  PlotPage page;
+  page.title = title;
+  page.width = 1200;
+  page.height = 1200;
+  page.columns = 3;
+  page.row_heights = {5, 1.2, 3, 3, 1.8};
+  page.panels.resize(15);
+  for (std::size_t a = 0; a < 3; ++a) {
+    page.panels[a] = mapping_panel(names[a], texels[a], marks[a]);
+    page.panels[a + 3] = mask_panel(texels[a], marks[a]);
+    page.panels[a + 6] = panel(marks[a], curve(filtered(texels[a], attenuation), 0x1f5fa8));
+    page.panels[a + 9] = panel(marks[a], curve(filtered(texels[a], highlight), 0x444444));
+    page.panels[a + 9].x.label = std::string("displayed ") + names[a];
+    page.panels[a + 12] = texel_panel(names[a], texels[a]);
+  }
+  const char* const rows[] = {"data coordinate (R)", "mask (G)", "attenuation (B)", "highlight (A)"};
+  for (std::size_t row = 0; row < 4; ++row)
+    page.panels[3 * row].y.label = rows[row];
+  return page;
+}
+
+} // namespace slicelens
