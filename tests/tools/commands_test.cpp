@@ -38,16 +38,18 @@ std::pair<unsigned, unsigned> png_size(const std::string& png) {
 
 TEST_CASE("help of the program and of each command mentions every option") {
   const Workplace place;
-  CHECK_THAT(done(place, {"--help"}).out,
-             Contains("render") && Contains("compare") && Contains("info") && Contains("phantom") &&
-                 Contains("list") && Contains("gallery") && Contains("--version") && Contains("Exit status"));
+  CHECK_THAT(done(place, {"--help"}).out, Contains("render") && Contains("compare") && Contains("info") &&
+                                              Contains("phantom") && Contains("list") &&
+                                              Contains("gallery") && Contains("plot") &&
+                                              Contains("--version") && Contains("Exit status"));
   const std::vector<std::pair<std::string, Words>> options = {
       {"render", {"input", "--output", "--set", "--depth", "--print-scene", "--verbose"}},
       {"compare", {"--output", "--set", "--set-a", "--set-b", "--factor", "--verbose", "psnr_covered"}},
       {"info", {"volume", "--set", "--json", "NRRD", "DICOM"}},
       {"phantom", {"name", "--output", "--size"}},
       {"list", {"contexts", "figures", "keys", "phantoms", "pipelines", "presets", "warps"}},
-      {"gallery", {"inputs", "--output", "--set"}}};
+      {"gallery", {"inputs", "--output", "--set"}},
+      {"plot", {"SCENE", "--output", "--set", "--size", "gnuplot-nox"}}};
   for (const auto& [command, words] : options) {
     const std::string text = done(place, {command, "--help"}).out;
     CAPTURE(command, text);
