@@ -87,6 +87,8 @@ PlotPanel mapping_panel(char axis, const Texels& texels, const FocusMarks& marks
   result.series.insert(result.series.begin(), identity);
   result.key = KeyPlace::top_left;
   for (const glm::dvec2& point : map.points) { // a map that leaves the volume is shown in full
+    if (!std::isfinite(point.y))
+      continue;
     result.y.range->first = std::min(result.y.range->first, point.y - 0.05);
     result.y.range->second = std::max(result.y.range->second, point.y + 0.05);
   }
@@ -102,8 +104,10 @@ PlotPanel mask_panel(const Texels& texels, const FocusMarks& marks) {
 
 std::uint32_t packed(const glm::dvec3& color) {
   std::uint32_t rgb = 0;
-  for (int c = 0; c < 3; ++c)
-    rgb = rgb << 8 | static_cast<std::uint32_t>(std::lround(255 * std::clamp(color[c], 0.0, 1.0)));
+  for (int c = 0; c < 3; ++c) {
+    const double part = std::isnan(color[c]) ? 0 : std::clamp(color[c], 0.0, 1.0);
+    rgb = rgb << 8 | static_cast<std::uint32_t>(std::lround(255 * part));
+  }
   return rgb;
 }
 
@@ -131,7 +135,8 @@ PlotPanel texel_panel(char axis, const Texels& texels) {
   PlotPanel result;
   double largest = 0;
   for (const glm::vec4& texel : texels)
-    largest = std::max(largest, std::abs(static_cast<double>(texel.x)));
+    if (std::isfinite(texel.x))
+      largest = std::max(largest, std::abs(static_cast<double>(texel.x)));
   char text[64];
   std::snprintf(text, sizeof text, "%c texture, |offset| up to %.3g", axis, largest);
   result.title = text;

@@ -21,7 +21,8 @@ struct FocusMarks {
 ///
 /// `texels` holds (R offset, G mask, B attenuation, A highlight) of each axis; texel j of N sits at (j +
 /// ½)/N. R, B and A are drawn as a linear filter with clamped ends reads them, G, which is fetched nearest,
-/// as steps. Throws UsageError where an axis has no texels.
+/// as steps. Values that are not finite interrupt the curves
+/// and are black boxes. Throws UsageError where an axis has no texels.
 PlotPage axis_tables_page(const std::string& title, const std::array<std::vector<glm::vec4>, 3>& texels,
                           const std::array<FocusMarks, 3>& marks = {});
 

@@ -63,7 +63,20 @@ void check_range(const PlotAxis& axis, const PlotPanel& panel) {
   }
 }
 
+/// Places that are not points of a curve must all be there.
+void check_place(double x, const PlotPanel& panel, const char* what) {
+  if (!visible(x, panel.x))
+    throw UsageError("plot '" + panel.title + "': " + what + " at " + number_text(x) +
+                     "; it must be finite (and positive on a logarithmic axis)");
+}
+
 void check(const PlotPanel& panel) {
+  for (const PlotMarker& marker : panel.markers)
+    check_place(marker.x, panel, "a marker");
+  for (const PlotRegion& region : panel.regions) {
+    check_place(region.low, panel, "a region");
+    check_place(region.high, panel, "a region");
+  }
   check_range(panel.x, panel);
   check_range(panel.y, panel);
   bool any = !panel.boxes.empty();

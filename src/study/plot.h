@@ -84,7 +84,8 @@ PlotFormat plot_format(const std::string& path);
 
 /// gnuplot's commands for the page, data included. All texts are plain: nothing in them is a command or
 /// markup; control characters become blanks. Throws UsageError for a page that cannot be drawn: a size out of
-/// range, more panels than places, a row height that is not positive, a panel in which nothing can be seen.
+/// range, more panels than places, a row height that is not positive, a panel in which nothing can be seen, a
+/// marker or region that is not finite.
 std::string plot_script(const PlotPage& page, PlotFormat format);
 
 /// The bytes of the picture; the same page and fonts give the same bytes. Throws as plot_script and

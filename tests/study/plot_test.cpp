@@ -173,6 +173,9 @@ TEST_CASE("pages that cannot be drawn are refused by name") {
   page = good;
   page.panels[0].x = {"n", std::pair{0.0, 1.0}, true, {}};
   CHECK_THAT(refusal(page), Contains("the range 0 to 1 of 'n'"));
+  page = good;
+  page.panels[0].markers = {{std::nan(""), "x"}};
+  CHECK_THAT(refusal(page), Contains("'speed': a marker at nan"));
   CHECK(plot_format("a/b.SVG") == PlotFormat::svg);
   CHECK(plot_format("b.png") == PlotFormat::png);
   CHECK_THROWS_WITH(plot_format("b.pdf"), Contains("b.pdf") && Contains(".svg or .png"));
@@ -228,6 +231,10 @@ TEST_CASE("axis tables become a curve for each channel, and boxes for the texels
   // neighbours in the middle of the highlight differ.
   CHECK(page.panels[12].boxes.size() == 8 + 1 + 1 + 7);
   CHECK(page.panels[12].boxes.back().high.x == 8);
+  auto damaged = texels;
+  damaged[0][3] = glm::vec4(std::nanf(""));
+  const PlotPanel still = axis_tables_page("damaged", damaged).panels[0];
+  CHECK(still.y.range->second < 1.2); // one bad texel does not spoil the range
   CHECK_THROWS_WITH(axis_tables_page("none", {}), Contains("no texels along x"));
 }
 
