@@ -117,8 +117,8 @@ std::uint32_t texel_color(const glm::vec4& texel, int channel, double largest_of
   return diverging_color(largest_offset > 0 ? texel.x / largest_offset : 0);
 }
 
-/// Texels of one colour become one box. Each but the last reaches one texel further, under the next one, so
-/// that no seam of background shows between them.
+/// Texels of one colour become one box. Each but the last reaches further, under the next ones, by a texel or
+/// some pixels, so that no seam of background shows between them.
 void add_strip(std::vector<PlotBox>& boxes, const Texels& texels, int channel, double largest_offset) {
   const double top = 4 - channel;
   const auto color = [&](std::size_t j) { return texel_color(texels[j], channel, largest_offset); };
@@ -126,7 +126,8 @@ void add_strip(std::vector<PlotBox>& boxes, const Texels& texels, int channel, d
     next = j + 1;
     while (next < texels.size() && color(next) == color(j))
       ++next;
-    const double end = static_cast<double>(std::min(next + 1, texels.size()));
+    const std::size_t further = std::max<std::size_t>(1, texels.size() / 100);
+    const double end = static_cast<double>(std::min(next + further, texels.size()));
     boxes.push_back({{static_cast<double>(j), top - 0.92}, {end, top - 0.08}, color(j)});
   }
 }

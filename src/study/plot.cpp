@@ -19,6 +19,7 @@ constexpr int largest_side = 8192;
 
 // Room around the frames for titles, labels and numbers, in pixels.
 constexpr double page_title = 34;
+constexpr double row_gap = 8;
 constexpr double panel_title = 24;
 constexpr double marker_label = 18;
 constexpr double axis_numbers = 26;
@@ -90,7 +91,7 @@ void check(const PlotPanel& panel) {
 
 /// Pixels above and below the frames of a row: as much as the fullest of its panels needs.
 struct RowSpace {
-  double above = 8;
+  double above = row_gap;
   double below = axis_numbers;
 };
 
@@ -99,7 +100,7 @@ RowSpace row_space(const PlotPage& page, std::size_t row) {
   RowSpace space;
   for (std::size_t i = row * columns; i < std::min((row + 1) * columns, page.panels.size()); ++i) {
     const PlotPanel& panel = page.panels[i];
-    space.above = std::max(space.above, 8 + (panel.title.empty() ? 0 : panel_title) +
+    space.above = std::max(space.above, row_gap + (panel.title.empty() ? 0 : panel_title) +
                                             (has_marker_labels(panel) ? marker_label : 0));
     space.below = std::max(space.below, axis_numbers + (panel.x.label.empty() ? 0 : axis_label));
   }
@@ -274,7 +275,9 @@ std::string text_command(const PlotPage& page, const std::string& text, double x
 std::string text_commands(const PlotPage& page, std::size_t index, const Frame& frame) {
   const PlotPanel& panel = page.panels[index];
   const double middle = (frame.left + frame.right) / 2;
-  const double title = frame.top - panel_title / 2 - (has_marker_labels(panel) ? marker_label : 0);
+  const std::size_t row = index / static_cast<std::size_t>(page.columns);
+  const double title =
+      frame.top - row_space(page, row).above + row_gap + panel_title / 2; // one line for a row
   return text_command(page, index == 0 ? page.title : "", page.width / 2.0, 0.6 * page_title, " font ',17'") +
          text_command(page, panel.title, middle, title) +
          text_command(page, panel.x.label, middle, frame.bottom + axis_numbers + axis_label / 2) +
