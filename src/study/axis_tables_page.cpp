@@ -13,6 +13,7 @@ namespace {
 
 using Texels = std::vector<glm::vec4>;
 
+constexpr const char* axis_names = "xyz";
 constexpr int offset = 0, mask = 1, attenuation = 2, highlight = 3; // channels R, G, B, A
 
 double texel_center(std::size_t j, std::size_t count) {
@@ -47,39 +48,42 @@ PlotSeries curve(std::vector<glm::dvec2> points, std::uint32_t rgb) {
   return series;
 }
 
-/// A panel over the displayed coordinate with the focus marked.
-PlotPanel panel(const FocusMarks& marks, PlotSeries series) {
+/// Filtered or in steps, as the renderer reads the channel.
+std::vector<glm::dvec2> read(const Texels& texels, int channel, AxisFilter filter) {
+  return filter == AxisFilter::linear ? filtered(texels, channel) : steps(texels, channel);
+}
+
+/// A panel over the displayed coordinate with the focus marked; with names of the marks where `named`.
+PlotPanel panel(std::size_t axis, const std::optional<AxisRanges>& focus, bool named, PlotSeries series) {
   PlotPanel result;
   result.x.range = std::pair{0.0, 1.0};
   result.y.range = std::pair{-0.05, 1.05};
-  if (marks.shown) {
-    const auto [low, high] = *marks.shown;
-    result.regions.push_back({low, high});
-    result.markers.push_back({low, "", PlotMarker::Side::left});
-    result.markers.push_back({high, "", PlotMarker::Side::right});
-  }
-  if (marks.center)
-    result.markers.push_back({*marks.center, "", PlotMarker::Side::center});
   result.series = {std::move(series)};
+  if (!focus)
+    return result;
+  const std::string letter(1, axis_names[axis]);
+  const auto name = [&](const char* text) { return named ? letter + text : std::string(); };
+  const double low = (*focus)[axis].x;
+  const double high = (*focus)[axis].y;
+  if (low < high) {
+    result.regions = {{low, high}};
+    result.markers = {{low, name("'_min"), PlotMarker::Side::left},
+                      {high, name("'_max"), PlotMarker::Side::right}};
+  }
+  const bool room = low == high || high - low > 0.15; // between the two other names
+  result.markers.push_back({(low + high) / 2, room ? name("_f") : "", PlotMarker::Side::center});
   return result;
 }
 
-/// The first row's panel, which names the axis and the marks for all below it.
-PlotPanel mapping_panel(char axis, const Texels& texels, const FocusMarks& marks) {
-  const std::string letter(1, axis);
-  PlotSeries map = curve(filtered(texels, offset), 0xb02a2a);
+PlotPanel mapping_panel(std::size_t axis, const Texels& texels, const std::optional<AxisRanges>& focus,
+                        AxisFilter filter) {
+  const std::string letter(1, axis_names[axis]);
+  PlotSeries map = curve(read(texels, offset, filter), 0xb02a2a);
   for (glm::dvec2& point : map.points)
     point.y += point.x;
   map.name = letter + " + offset";
-  PlotPanel result = panel(marks, map);
+  PlotPanel result = panel(axis, focus, true, map);
   result.title = letter + " axis";
-  const bool narrow = marks.shown && marks.shown->second - marks.shown->first < 0.15;
-  for (PlotMarker& marker : result.markers) {
-    if (marker.side != PlotMarker::Side::center)
-      marker.label = letter + (marker.side == PlotMarker::Side::left ? "'_min" : "'_max");
-    else if (!narrow) // there is no room between the two other labels
-      marker.label = letter + "_f";
-  }
   PlotSeries identity = curve({{0, 0}, {1, 1}}, 0x777777);
   identity.name = "identity";
   identity.width = 1;
@@ -95,11 +99,21 @@ PlotPanel mapping_panel(char axis, const Texels& texels, const FocusMarks& marks
   return result;
 }
 
-PlotPanel mask_panel(const Texels& texels, const FocusMarks& marks) {
-  PlotPanel result = panel(marks, curve(steps(texels, mask), 0x2a7d3b));
+PlotPanel mask_panel(std::size_t axis, const AxisTables& tables, const std::optional<AxisRanges>& focus,
+                     AxisFilter filter) {
+  // A mask that is tested is the nearest texel's under either filter.
+  const AxisFilter mask_filter = tables.mask == AxisMask::test ? AxisFilter::nearest : filter;
+  PlotPanel result = panel(axis, focus, false, curve(read(tables.texels[axis], mask, mask_filter), 0x2a7d3b));
   result.y.range = std::pair{-0.15, 1.15};
   result.y.ticks = {{0, "0"}, {1, "1"}};
   return result;
+}
+
+/// Of attenuation or highlight. Its region is named where it is not the mapping's, which has its names in
+/// the first row.
+PlotPanel effect_panel(std::size_t axis, PlotSeries series, const std::optional<AxisRanges>& own,
+                       const std::optional<AxisRanges>& mapping) {
+  return panel(axis, own ? own : mapping, own && own != mapping, std::move(series));
 }
 
 std::uint32_t packed(const glm::dvec3& color) {
@@ -132,14 +146,14 @@ void add_strip(std::vector<PlotBox>& boxes, const Texels& texels, int channel, d
   }
 }
 
-PlotPanel texel_panel(char axis, const Texels& texels) {
+PlotPanel texel_panel(std::size_t axis, const Texels& texels) {
   PlotPanel result;
   double largest = 0;
   for (const glm::vec4& texel : texels)
     if (std::isfinite(texel.x))
       largest = std::max(largest, std::abs(static_cast<double>(texel.x)));
   char text[64];
-  std::snprintf(text, sizeof text, "%c texture, |offset| up to %.3g", axis, largest);
+  std::snprintf(text, sizeof text, "%c texture, |offset| up to %.3g", axis_names[axis], largest);
   result.title = text;
   result.x.label = "texel";
   result.x.range = std::pair{0.0, static_cast<double>(texels.size())};
@@ -160,13 +174,8 @@ std::uint32_t diverging_color(double value) {
   return packed(glm::mix(glm::dvec3(1), end, std::abs(t)));
 }
 
-PlotPage axis_tables_page(const std::string& title, const std::array<Texels, 3>& texels,
-                          const std::array<FocusMarks, 3>& marks) {
-  const char* const names = "xyz";
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (texels[a].empty())
-      throw UsageError(std::string("axis tables: there are no texels along ") + names[a]);
-  }
+PlotPage axis_tables_page(const std::string& title, const AxisTables& tables, const AxisTableMarks& marks,
+                          AxisFilter filter) {
   PlotPage page;
   page.title = title;
   page.width = 1200;
@@ -174,18 +183,37 @@ PlotPage axis_tables_page(const std::string& title, const std::array<Texels, 3>&
   page.columns = 3;
   page.row_heights = {5, 1.2, 3, 3, 1.8};
   page.panels.resize(15);
-  for (std::size_t a = 0; a < 3; ++a) {
-    page.panels[a] = mapping_panel(names[a], texels[a], marks[a]);
-    page.panels[a + 3] = mask_panel(texels[a], marks[a]);
-    page.panels[a + 6] = panel(marks[a], curve(filtered(texels[a], attenuation), 0x1f5fa8));
-    page.panels[a + 9] = panel(marks[a], curve(filtered(texels[a], highlight), 0x444444));
-    page.panels[a + 9].x.label = std::string("displayed ") + names[a];
-    page.panels[a + 12] = texel_panel(names[a], texels[a]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Texels& texels = tables.texels[axis];
+    if (texels.empty())
+      throw UsageError(std::string("axis tables: there are no texels along ") + axis_names[axis]);
+    const auto effect = [&](int channel, std::uint32_t rgb, const std::optional<AxisRanges>& own) {
+      return effect_panel(axis, curve(read(texels, channel, filter), rgb), own, marks.mapping);
+    };
+    page.panels[axis] = mapping_panel(axis, texels, marks.mapping, filter);
+    page.panels[axis + 3] = mask_panel(axis, tables, marks.mapping, filter);
+    page.panels[axis + 6] = effect(attenuation, 0x1f5fa8, marks.attenuation);
+    page.panels[axis + 9] = effect(highlight, 0x444444, marks.highlight);
+    page.panels[axis + 9].x.label = std::string("displayed ") + axis_names[axis];
+    page.panels[axis + 12] = texel_panel(axis, texels);
   }
-  const char* const rows[] = {"data coordinate (R)", "mask (G)", "attenuation (B)", "highlight (A)"};
+  const char* const rows[] = {"data coordinate (R)",
+                              tables.mask == AxisMask::test ? "mask (G)" : "weight (G)", "attenuation (B)",
+                              "highlight (A)"};
   for (std::size_t row = 0; row < 4; ++row)
     page.panels[3 * row].y.label = rows[row];
   return page;
+}
+
+PlotPage axis_tables_page(const std::string& title, const PreparedScene& prepared) {
+  const FocusEffects& effects = prepared.effects;
+  AxisTableMarks marks;
+  marks.mapping = focus_region(prepared.scene.warp);
+  if (has_attenuation(effects))
+    marks.attenuation = ranges_of(effects.attenuation_low, effects.attenuation_high);
+  if (has_highlight(effects))
+    marks.highlight = ranges_of(effects.highlight_low, effects.highlight_high);
+  return axis_tables_page(title, axis_tables_of(prepared), marks, prepared.scene.render.axis_filter);
 }
 
 } // namespace slicelens

@@ -3,6 +3,7 @@
 #include "catch.h"
 #include "core/errors.h"
 #include "image/image_io.h"
+#include "scene/load.h"
 #include "study/axis_tables_page.h"
 #include "study/gnuplot.h"
 #include "study/plot.h"
@@ -80,14 +81,16 @@ PlotPage one_panel(const std::vector<glm::dvec2>& points) {
 }
 
 /// Bifocal tables worked by hand: data [.4,.6] shown on [.2,.8], 8 texels.
-std::array<std::vector<glm::vec4>, 3> bifocal_texels() {
+AxisTables bifocal_tables() {
   std::vector<glm::vec4> axis;
   for (int j = 0; j < 8; ++j) {
     const float x = (static_cast<float>(j) + 0.5F) / 8;
     const float u = x < 0.2F ? 2 * x : x <= 0.8F ? 0.4F + (x - 0.2F) / 3 : 0.6F + (x - 0.8F) * 2;
     axis.push_back({u - x, 1, 1, std::max(1 - 2 * std::abs(0.5F - x), 0.0F)});
   }
-  return {axis, axis, axis};
+  AxisTables tables;
+  tables.texels = {axis, axis, axis};
+  return tables;
 }
 
 /// The numbers that follow `word`, as pixels of a page of 1000.
@@ -200,11 +203,8 @@ TEST_CASE("frames of one row and one column are in line") {
 }
 
 TEST_CASE("axis tables become a curve for each channel, and boxes for the texels") {
-  const auto texels = bifocal_texels();
-  std::array<FocusMarks, 3> marks;
-  marks[1].shown = std::pair{0.2, 0.8};
-  marks[2].center = 0.5;
-  const PlotPage page = axis_tables_page("tables", texels, marks);
+  const AxisTables tables = bifocal_tables();
+  const PlotPage page = axis_tables_page("tables", tables);
   REQUIRE(page.panels.size() == 15);
   const auto& map = page.panels[0].series.at(1).points;
   REQUIRE(map.size() == 10); // eight texels and the two ends
@@ -220,22 +220,75 @@ TEST_CASE("axis tables become a curve for each channel, and boxes for the texels
   CHECK(mask[3] == glm::dvec2(2.0 / 8, 1));
   CHECK(page.panels[9].series.at(0).points[1].y == Approx(2.0 / 16).epsilon(1e-6)); // 1 − 2·|½ − 1/16|
 
-  CHECK(page.panels[0].markers.empty());
-  REQUIRE(page.panels[1].markers.size() == 2);
-  CHECK(page.panels[1].markers[0].label == "y'_min");
-  CHECK(page.panels[1].regions.size() == 1);
-  REQUIRE(page.panels[2].markers.size() == 1);
-  CHECK(page.panels[2].markers[0].label == "z_f");
-
   // Mask and attenuation are one colour throughout: a box each. All eight offsets and all but the equal
   // neighbours in the middle of the highlight differ.
   CHECK(page.panels[12].boxes.size() == 8 + 1 + 1 + 7);
   CHECK(page.panels[12].boxes.back().high.x == 8);
-  auto damaged = texels;
-  damaged[0][3] = glm::vec4(std::nanf(""));
+  CHECK_THROWS_WITH(axis_tables_page("none", AxisTables{}), Contains("no texels along x"));
+
+  AxisTables damaged = tables;
+  damaged.texels[0][3] = glm::vec4(std::nanf(""));
   const PlotPanel still = axis_tables_page("damaged", damaged).panels[0];
   CHECK(still.y.range->second < 1.2); // one bad texel does not spoil the range
-  CHECK_THROWS_WITH(axis_tables_page("none", {}), Contains("no texels along x"));
+}
+
+TEST_CASE("axis tables are drawn as the renderer's filter reads them") {
+  AxisTables tables = bifocal_tables();
+  const auto nearest = axis_tables_page("", tables, {}, AxisFilter::nearest).panels[0].series.at(1).points;
+  // Texel 1 of 8 (centre 3/16, offset +3/16) over [1/8, 2/8].
+  REQUIRE(nearest.size() == 16);
+  CHECK(nearest[2].x == 1.0 / 8);
+  CHECK(nearest[2].y == Approx(1.0 / 8 + 3.0 / 16).epsilon(1e-6));
+  CHECK(nearest[3].y == Approx(2.0 / 8 + 3.0 / 16).epsilon(1e-6));
+  tables.mask = AxisMask::weight; // is filtered as the rest is
+  const PlotPage weights = axis_tables_page("", tables);
+  CHECK(weights.panels[3].series.at(0).points.size() == 10);
+  CHECK(weights.panels[3].y.label == "weight (G)");
+}
+
+TEST_CASE("focus regions are marked in displayed coordinates") {
+  AxisTableMarks marks;
+  marks.mapping = AxisRanges{glm::dvec2(0.2, 0.8), glm::dvec2(0.3, 0.35), glm::dvec2(0.25, 0.25)};
+  marks.attenuation = marks.mapping;
+  marks.highlight = AxisRanges{glm::dvec2(0.1, 0.5), glm::dvec2(0.3, 0.7), glm::dvec2(0.4, 0.9)};
+  const PlotPage page = axis_tables_page("tables", bifocal_tables(), marks);
+  const auto names = [&](std::size_t panel) {
+    std::vector<std::string> labels;
+    for (const PlotMarker& marker : page.panels[panel].markers)
+      labels.push_back(marker.label);
+    return labels;
+  };
+  using Names = std::vector<std::string>;
+  CHECK(names(0) == Names{"x'_min", "x'_max", "x_f"});
+  CHECK(names(1) == Names{"y'_min", "y'_max", ""}); // no room for a third
+  CHECK(names(2) == Names{"z_f"});                  // a focal point
+  CHECK(names(6) == Names{"", "", ""});             // named in the first row
+  CHECK(names(9) == Names{"x'_min", "x'_max", "x_f"});
+  CHECK(page.panels[6].markers[2].x == 0.5);
+  CHECK(page.panels[9].markers[2].x == 0.3);
+  CHECK(page.panels[9].regions.at(0).high == 0.5);
+  CHECK(page.panels[2].regions.empty());
+  CHECK(axis_tables_page("", bifocal_tables()).panels[0].markers.empty());
+}
+
+TEST_CASE("a scene's tables are plotted whatever its pipeline, with each effect's own region") {
+  Scene scene;
+  scene.warp = {Bifocal{}};
+  scene.render.pipeline = Pipeline::fragment;
+  scene.attenuation.function = AttenuationFunction::distance;
+  scene.attenuation.focus = ranges_of(glm::dvec3(0.5), glm::dvec3(0.75));
+  Volume volume;
+  volume.dims = {4, 6, 8};
+  volume.voxels.resize(voxel_bytes(volume));
+  TransferFunction transfer = transfer_of(scene, volume);
+  const PreparedScene prepared = prepare(scene, std::move(volume), std::move(transfer));
+  const PlotPage page = axis_tables_page("scene", prepared);
+  CHECK(page.panels[1].series.at(1).points.size() == 6 + 2); // a texel for each voxel
+  CHECK(page.panels[0].regions.at(0).low == 0.25);           // the bifocal's default
+  CHECK(page.panels[6].regions.at(0).low == 0.5);
+  CHECK(page.panels[9].regions.at(0).low == 0.25);
+  // Equation 3 at the first of four texels: (1/8) / x'_min.
+  CHECK(page.panels[6].series.at(0).points[1].y == Approx(0.25).epsilon(1e-6));
 }
 
 TEST_CASE("offsets are blue below, white at nothing, red above") {

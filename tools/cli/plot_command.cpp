@@ -12,15 +12,18 @@ namespace slicelens::cli {
 
 namespace {
 
-/// What the page of a scene's tables shows.
-struct ScenePlot {
-  std::array<std::vector<glm::vec4>, 3> texels;
-  std::array<FocusMarks, 3> marks;
-};
-
-// TODO: the tables of the prepared scene, once scenes have axis maps.
-ScenePlot axis_tables_of(const PreparedScene&, const std::string& source) {
-  throw UsageError(source + ": has no axis maps, highlight or attenuation to plot");
+/// A page of straight lines would say nothing.
+void refuse_without_tables(const Scene& scene, const std::string& source) {
+  if (scene.warp.empty() && !has_effects(scene)) {
+    throw UsageError(source + ": has no axis maps, highlight or attenuation to plot; give it a warp of kind "
+                              "bifocal, fisheye, volume-lens or connected-lens, or one of the two sections");
+  }
+  for (const Warp& warp : scene.warp) {
+    if (!is_separable(warp)) {
+      throw UsageError(source + ": has no axis maps to plot, because its warp '" + kind_of(warp) +
+                       "' is no map for each axis; bifocal, fisheye, volume-lens and connected-lens are");
+    }
+  }
 }
 
 std::string title_of(const Scene& scene, const std::string& source) {
@@ -32,9 +35,9 @@ std::string title_of(const Scene& scene, const std::string& source) {
 void run_plot(const PlotOptions& options) {
   const PlotFormat format = plot_format(options.output); // refuse a wrong name before the work
   const SceneInput input = scene_input(options.input, options.set);
+  refuse_without_tables(input.scene, input.source);
   const PreparedScene prepared = load(input, console_progress());
-  const ScenePlot plot = axis_tables_of(prepared, input.source);
-  PlotPage page = axis_tables_page(title_of(prepared.scene, input.source), plot.texels, plot.marks);
+  PlotPage page = axis_tables_page(title_of(prepared.scene, input.source), prepared);
   if (!options.size.empty()) {
     page.width = options.size.at(0);
     page.height = options.size.at(1);
