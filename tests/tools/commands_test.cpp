@@ -237,7 +237,7 @@ TEST_CASE("a gallery compares tables with the exact maps and with rays") {
   put(place / "effect.json",
       R"({"volume":{"phantom":"blob","size":[16,16,16]},"render":{"size":[24,20],"pipeline":"rays"},
       "attenuation":{"function":"distance","focus":[[0.4,0.6],[0.4,0.6],[0.4,0.6]]}})");
-  done(place, {"gallery", "lens.json", "effect.json", "-o", "page"});
+  REQUIRE(place.run({"gallery", "lens.json", "effect.json", "-o", "page"}).status == 0);
   const std::string page = contents(place / "page/index.html");
   CHECK_THAT(page, Contains("axis against fragment") && Contains("axis against rays"));
   for (const char* scene : {"lens", "effect"}) {
