@@ -2,6 +2,7 @@
 
 #include "lib/composite.glsl"
 #include "gpu/classify.glsl"
+#include "gpu/focus_effects.glsl"
 
 uniform sampler2D maxima;
 uniform vec2 value_from_unit;
@@ -12,5 +13,8 @@ out vec4 result;
 void main() {
   vec4 largest = texelFetch(maxima, ivec2(gl_FragCoord.xy), 0);
   vec4 color = classify(value_from_unit.x * largest.r + value_from_unit.y);
+#ifdef FOCUS_EFFECTS
+  color = with_effects(color, largest.gb);  // those of the largest sample
+#endif
   result = largest.a > 0.0 ? associated(color.rgb, color.a) : vec4(0.0);
 }

@@ -10,6 +10,7 @@
 #include "lib/gradient.glsl"
 #include "lib/shade.glsl"
 #include "gpu/warp.glsl"
+#include "gpu/focus_effects.glsl"
 #include "gpu/light.glsl"
 
 uniform RayFrame frame;
@@ -27,7 +28,7 @@ in vec2 place;
 out vec4 result;
 
 vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
-#ifdef LENS_COUNT
+#ifdef WARPED
   vec3 t = texture_from_object(p);
   if (!in_volume(t) || !in_data_planes(t)) return gathered;
 #if defined(LEVELS) && LEVELS > 1
@@ -45,14 +46,27 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #endif
 #else
 #if defined(MODE_MIP)
-  return vec4(max(gathered.x, displayed_value(t)), 0.0, 0.0, 1.0);
+  float value = displayed_value(t);
+#ifdef FOCUS_EFFECTS
+  return value > gathered.x ? vec4(value, effects_at(p), 1.0) : gathered;
+#else
+  return vec4(max(gathered.x, value), 0.0, 0.0, 1.0);
+#endif
 #else
   vec4 sample_color = classify_texel(displayed_texel(t));
 #if defined(MODE_XRAY)
+#ifdef FOCUS_EFFECTS
+  vec4 grey = with_effects(vec4(1.0, 1.0, 1.0, sample_color.a * distance_ratio), effects_at(p));
+  return gathered + associated(grey.rgb, grey.a);
+#else
   return gathered + vec4(sample_color.a * distance_ratio);
+#endif
 #else
 #ifdef SHADING_DIFFUSE
   sample_color.rgb = shade(sample_color.rgb, t, p, to_eye);
+#endif
+#ifdef FOCUS_EFFECTS
+  sample_color = with_effects(sample_color, effects_at(p));
 #endif
 #ifdef CORRECT_CONSTANT
   sample_color.a = corrected_opacity(sample_color.a, distance_ratio);
@@ -92,6 +106,9 @@ void main() {
 #if defined(MODE_MIP)
   if (gathered.w > 0.0) {
     vec4 color = classify(gathered.x);
+#ifdef FOCUS_EFFECTS
+    color = with_effects(color, gathered.yz);
+#endif
     gathered = associated(color.rgb, color.a);
   } else {
     gathered = vec4(0.0);

@@ -4,7 +4,8 @@
 // CORRECT_CONSTANT corrects the opacity for one distance ratio; CORRECT_FRAGMENT for the distance along this
 // fragment's own ray (Brunet §3.1). CLASSIFICATION_PRE reads colours that are
 // corrected already. WARP_TESSELLATED divides the homogeneous coordinate that the mesh carries;
-// WARP_FRAGMENT evaluates the lens here.
+// WARP_FRAGMENT evaluates the warps here; AXIS_TABLES reads them from Cohen's tables. HIGHLIGHT and ATTENUATION follow the
+// coordinate where the sample is shown; under MIP the winner of the depth test keeps its own.
 
 #include "lib/opacity.glsl"
 #include "lib/composite.glsl"
@@ -14,6 +15,8 @@
 #include "lib/gradient.glsl"
 #include "lib/shade.glsl"
 #include "gpu/warp.glsl"
+#include "gpu/axis_tables.glsl"
+#include "gpu/focus_effects.glsl"
 #include "gpu/light.glsl"
 
 uniform float distance_ratio;     // Δ/Δ₀ on the view axis
@@ -49,11 +52,22 @@ vec3 direction_to_eye(vec3 p) {
 void main() {
 #if defined(WARP_TESSELLATED)
   vec3 texture_coordinate = homogeneous_coordinate.xyz / homogeneous_coordinate.w;
+#elif defined(AXIS_TABLES)
+  AxisTexels texels = fetch_axis_tables(object_coordinate);
+  vec3 texture_coordinate = axis_texture_from_object(texels, object_coordinate);
+#ifdef DATA_PLANES
+  if (!in_data_planes(texture_coordinate)) discard;
+#endif
 #elif defined(WARP_FRAGMENT)
   vec3 texture_coordinate = texture_from_object(object_coordinate);
   if (!in_volume(texture_coordinate) || !in_data_planes(texture_coordinate)) discard;
 #else
   vec3 texture_coordinate = object_coordinate;
+#endif
+#if defined(FOCUS_EFFECTS) && defined(AXIS_TABLES)
+  vec2 focus = axis_effects(texels);
+#elif defined(FOCUS_EFFECTS)
+  vec2 focus = effects_at(object_coordinate);
 #endif
 #if defined(CLASSIFICATION_PRE)
   vec4 sample_color = classified_sample(texture_coordinate);
@@ -75,18 +89,33 @@ void main() {
 #endif
 #if defined(MODE_MIP)
   float value = displayed_value(texture_coordinate);
-  result = vec4(unit_from_value.x * value + unit_from_value.y, 0.0, 0.0, 1.0);
+  float unit = unit_from_value.x * value + unit_from_value.y;
+#ifdef FOCUS_EFFECTS
+  result = vec4(unit, focus, 1.0);
+  gl_FragDepth = 0.5 + 0.5 * unit;
+#else
+  result = vec4(unit, 0.0, 0.0, 1.0);
+#endif
 #else
   vec4 sample_color = classify_texel(displayed_texel(texture_coordinate));
 #if defined(MODE_XRAY)
 #if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)
-  result = vec4(sample_color.a * sample_ratio());
+  float weight = sample_color.a * sample_ratio();
 #else
-  result = vec4(sample_color.a);
+  float weight = sample_color.a;
+#endif
+#ifdef FOCUS_EFFECTS
+  vec4 grey = with_effects(vec4(1.0, 1.0, 1.0, weight), focus);
+  result = associated(grey.rgb, grey.a);
+#else
+  result = vec4(weight);
 #endif
 #else
 #ifdef SHADING_DIFFUSE
   sample_color.rgb = shade(sample_color.rgb, texture_coordinate, object_coordinate, direction_to_eye(object_coordinate));
+#endif
+#ifdef FOCUS_EFFECTS
+  sample_color = with_effects(sample_color, focus);
 #endif
 #if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)
   sample_color.a = corrected_opacity(sample_color.a, sample_ratio());

@@ -20,7 +20,7 @@ vec3 shade(vec3 color, vec3 t, vec3 p, vec3 to_eye) {
 #else
   vec3 gradient = central_gradient(t, h);
 #endif
-#ifdef LENS_COUNT
+#if defined(WARPED) || defined(AXIS_TABLES)
   gradient = displayed_gradient(gradient, p);
 #endif
   gradient = world_from_gradient * gradient;

@@ -24,6 +24,7 @@ enum Integer : std::size_t {
   pixel_unpack_buffer,
   pixel_pack_buffer,
   active_texture,
+  depth_function,
   first_pixel_store
 };
 constexpr std::array<GLenum, first_pixel_store> integer_names = {GL_BLEND_SRC_RGB,
@@ -39,7 +40,8 @@ constexpr std::array<GLenum, first_pixel_store> integer_names = {GL_BLEND_SRC_RG
                                                                  GL_ARRAY_BUFFER_BINDING,
                                                                  GL_PIXEL_UNPACK_BUFFER_BINDING,
                                                                  GL_PIXEL_PACK_BUFFER_BINDING,
-                                                                 GL_ACTIVE_TEXTURE};
+                                                                 GL_ACTIVE_TEXTURE,
+                                                                 GL_DEPTH_FUNC};
 
 constexpr std::array<GLenum, 6> unpack_names = {GL_UNPACK_ALIGNMENT,    GL_UNPACK_ROW_LENGTH,
                                                 GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_PIXELS,
@@ -110,6 +112,7 @@ StateGuard::~StateGuard() {
     gl.BindSampler(static_cast<GLuint>(i), alive(units_[i].sampler, gl.IsSampler));
   }
   gl.ActiveTexture(value(active_texture));
+  gl.DepthFunc(value(depth_function));
   gl.BlendFuncSeparate(value(blend_source_color), value(blend_target_color), value(blend_source_alpha),
                        value(blend_target_alpha));
   gl.BlendEquationSeparate(value(blend_equation_color), value(blend_equation_alpha));

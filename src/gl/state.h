@@ -9,11 +9,11 @@
 namespace slicelens::gl {
 
 /// Saves at construction and restores at destruction what the passes of Slicelens change: blending (switch,
-/// functions, equations, colour), viewport, scissor, depth test and mask, face culling, colour mask, clear
-/// colour, dithering, sRGB conversion, framebuffers, program, vertex array, array and pixel-buffer bindings,
-/// pixel store, active unit, and for the first texture_units units the 1D, 2D and 3D textures and the
-/// sampler. Costs about a hundred glGet calls: use one per pass, not per draw. Keep it shorter-lived than the
-/// objects that were bound.
+/// functions, equations, colour), viewport, scissor, depth test, function and mask, face culling, colour
+/// mask, clear colour, dithering, sRGB conversion, framebuffers, program, vertex array, array and
+/// pixel-buffer bindings, pixel store, active unit, and for the first texture_units units the 1D, 2D and 3D
+/// textures and the sampler. Costs about a hundred glGet calls: use one per pass, not per draw. Keep it
+/// shorter-lived than the objects that were bound.
 class StateGuard {
 public:
   static constexpr int texture_units = 16;

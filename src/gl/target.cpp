@@ -51,6 +51,24 @@ Target make_target(const Functions& gl, int width, int height, GLenum format) {
   return target;
 }
 
+void attach_depth(const Functions& gl, Target& target) {
+  GLint draw = 0;
+  GLint bound = 0;
+  gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw);
+  gl.GetIntegerv(GL_RENDERBUFFER_BINDING, &bound);
+  target.depth = make_renderbuffer(gl);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, target.depth.name());
+  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, target.width, target.height);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer.name());
+  gl.FramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.name());
+  const GLenum status = gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw));
+  gl.BindRenderbuffer(GL_RENDERBUFFER, static_cast<GLuint>(bound));
+  check_errors(gl, "making a depth buffer");
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw GraphicsError(std::string("the driver cannot draw with a depth buffer: ") + status_name(status));
+}
+
 void bind_target(const Functions& gl, const Target& target) {
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer.name());
   gl.Viewport(0, 0, target.width, target.height);

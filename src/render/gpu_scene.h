@@ -7,6 +7,9 @@
 
 namespace slicelens {
 
+/// Cohen's tables, one for each axis; empty but under pipeline `axis`.
+using AxisTextures = std::array<gl::Texture, 3>;
+
 /// Textures of a prepared scene, shared by the GPU pipelines.
 struct GpuScene {
   gl::Texture volume;   ///< 3D, one channel, or associated RGBA of 8 bits under classification `pre`
@@ -21,11 +24,17 @@ struct GpuScene {
   BrickPlan plan;              ///< where the volume is bricked (render.tiles, render.levels)
   std::vector<gl::Texture> bricks; ///< of plan.bricks; `volume` is empty then
   std::size_t transfer_texels = 0;
+  AxisTextures axis;
 };
 
 /// The texture that render.volume_texture `auto` stands for: r16 for integers of 8 and 16 bits, which it
 /// holds exactly, else r32f. Not r8: software drivers filter 8-bit textures to 8 bits (docs/accuracy.md).
 VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type);
+
+/// Cohen's tables as textures, or rewritten where `textures` has them in that size already: all that changes
+/// with an effect or with the view (Cohen, Brodlie and Phillips 2008 §4). Returns the bytes uploaded.
+std::size_t upload_axis_tables(const gl::Functions& gl, const PreparedScene& prepared,
+                               AxisTextures& textures);
 
 /// Uploads both. Integers are stored so that they come back exactly where the format has the bits; otherwise
 /// values are scaled to the format over the volume's range. Non-finite voxels become the smallest finite

@@ -8,7 +8,7 @@
 #include "render/fixed_function.h"
 #include "render/render.h"
 #include "render/shaders.h"
-#include "render/uniforms.h"
+#include "render/warp_glsl.h"
 
 #include <algorithm>
 #include <array>
@@ -29,14 +29,24 @@ std::vector<std::string> macros_of(const PreparedPicture& prepared, bool evaluat
     macros.emplace_back("WARP_LOOKUP");
   if (evaluates && prepared.scene.render.pipeline == LensPipeline::fragment) {
     macros.emplace_back("WARP_FRAGMENT");
-    macros.push_back("LENS_COUNT " + std::to_string(prepared.lenses.size()));
+    macros.emplace_back("WARPED");
   }
   return macros;
 }
 
-gl::Program make_picture_program(const gl::Functions& gl, const std::vector<std::string>& macros) {
+/// The lenses' maps, in the order in which they are drawn.
+std::vector<WarpMap> maps_of(const PreparedPicture& prepared) {
+  std::vector<WarpMap> maps;
+  for (const LensTessellation& lens : prepared.lenses)
+    maps.emplace_back(lens.map);
+  return maps;
+}
+
+gl::Program make_picture_program(const gl::Functions& gl, const PreparedPicture& prepared, bool evaluates) {
+  const std::vector<std::string> macros = macros_of(prepared, evaluates);
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "lens_picture.vert", macros);
-  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "lens_picture.frag", macros);
+  const auto fragment =
+      shader_stage(GL_FRAGMENT_SHADER, "lens_picture.frag", macros, {warp_chain(maps_of(prepared))});
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   return gl::make_program(gl, stages);
 }
@@ -106,12 +116,12 @@ PictureGeometry make_picture_geometry(const PreparedPicture& prepared) {
 }
 
 PictureRenderer::PictureRenderer(const gl::Functions& gl, const PreparedPicture& prepared)
-    : gl_(&gl), plain_(make_picture_program(gl, macros_of(prepared, false))),
-      image_(upload_image(gl, prepared)), vertex_array_(gl::make_vertex_array(gl)) {
+    : gl_(&gl), plain_(make_picture_program(gl, prepared, false)), image_(upload_image(gl, prepared)),
+      vertex_array_(gl::make_vertex_array(gl)) {
   const gl::StateGuard guard(gl);
   WarpTable table;
   if (!draws_triangles(prepared.scene.render.pipeline) && !prepared.lenses.empty())
-    lens_ = make_picture_program(gl, macros_of(prepared, true));
+    lens_ = make_picture_program(gl, prepared, true);
   if (prepared.scene.render.pipeline == LensPipeline::lookup && lens_) {
     table = warp_table(prepared);
     gl::TextureSpec spec;
@@ -148,7 +158,7 @@ void PictureRenderer::set_uniforms(const gl::Program& program, const PreparedPic
   gl::set_uniform(gl, program, "warp_table", 1);
   const glm::dvec2 scale = 1.0 / (table.high - table.low);
   gl::set_uniform(gl, program, "table_from_picture", glm::vec4(scale, -table.low * scale));
-  set_lens_uniforms(gl, program, prepared.lenses, prepared.space);
+  set_warp_maps(gl, program, maps_of(prepared), prepared.space);
 }
 
 void PictureRenderer::bind(const gl::Target& target) const {

@@ -61,20 +61,53 @@ void prepare_warps(PreparedScene& prepared) {
         "warp '" + kind_of(prepared.scene.warp[0]) +
         "' needs a volume with axes at right angles; this one is sheared (a tilted gantry, for instance)");
   }
+  prepared.maps.clear();
   prepared.lenses.clear();
   prepared.log_zoom = 0;
+  // What the warps so far can show; Cohen's maps keep every box that holds the volume's own.
   glm::dvec3 low(0);
   glm::dvec3 high = prepared.space.size;
   for (const Warp& warp : prepared.scene.warp) {
-    const auto& lens = std::get<LamarLens>(warp);
+    prepared.maps.push_back(map_of(warp, prepared.space, prepared.warp_view));
+    const auto* lens = std::get_if<LamarLens>(&warp);
+    if (lens == nullptr)
+      continue;
     prepared.lenses.push_back(
-        prepare_lens(lens, prepared.space, prepared.warp_view, pixels_per_unit(prepared, lens)));
-    prepared.log_zoom = std::max(prepared.log_zoom, std::log(lens.zoom));
+        prepare_lens(*lens, prepared.space, prepared.warp_view, pixels_per_unit(prepared, *lens)));
+    prepared.log_zoom = std::max(prepared.log_zoom, std::log(lens->zoom));
     include_footprint(prepared.lenses.back().map, low, high);
   }
   refuse_overlap(prepared.lenses);
   prepared.object_low = texture_from_box(prepared.space, low);
   prepared.object_high = texture_from_box(prepared.space, high);
+}
+
+/// Unit vector from the focus centre to the viewer, along the volume's axes (Cohen, Brodlie and Phillips 2008
+/// §3.3).
+glm::dvec3 viewing_gaze(const PreparedScene& prepared) {
+  const View& view = prepared.view;
+  glm::dvec3 gaze = -view.forward;
+  if (view.projection == Projection::perspective) {
+    const glm::dvec3 focus = world_from_texture(prepared.box, gaze_origin(prepared.effects));
+    const glm::dvec3 to_eye = view.eye - focus;
+    if (glm::length(to_eye) > 0)
+      gaze = glm::normalize(to_eye);
+  }
+  return glm::transpose(prepared.volume.direction) * gaze;
+}
+
+/// Highlight, attenuation, and the tables of pipeline `axis`: all that changes with an effect or the view.
+void prepare_effects(PreparedScene& prepared) {
+  const Scene& scene = prepared.scene;
+  prepared.effects = focus_effects(scene.highlight, scene.attenuation, focus_region(scene.warp));
+  prepared.effects.gaze = viewing_gaze(prepared);
+  prepared.tables = {};
+  if (scene.render.pipeline != Pipeline::axis)
+    return;
+  std::array<std::size_t, 3> counts = prepared.volume.dims;
+  if (scene.render.axis_texels)
+    counts.fill(*scene.render.axis_texels);
+  prepared.tables = make_axis_tables(scene.warp, prepared.effects, counts);
 }
 
 /// The levels above the first. They depend on the data alone, so those there are stay.
@@ -106,6 +139,7 @@ void prepare_again(PreparedScene& prepared) {
     planes.push_back(pull_back(world, prepared.box.world_from_texture));
   }
   prepare_warps(prepared);
+  prepare_effects(prepared);
   if (is_bricked(scene.render))
     (void)plan_bricks(prepared); // refuses tiles and levels that the volume has no voxels for
   prepare_pyramid(prepared);

@@ -7,6 +7,7 @@
 #include "tess/lens_mesh.h"
 #include "volume/transfer.h"
 #include "volume/volume.h"
+#include "warp/axis_tables.h"
 
 #include <vector>
 
@@ -26,13 +27,19 @@ struct PreparedScene {
   std::vector<Plane> object_clip; ///< half-spaces of the displayed volume, in its texture coordinates
   BoxSpace space;
   WarpView warp_view;
-  std::vector<LensTessellation> lenses; ///< the scene's warps for this view
+  std::vector<WarpMap> maps;            ///< the scene's warps for this view, in forward order
+  std::vector<LensTessellation> lenses; ///< those of kind `lamar`
+  FocusEffects effects{};               ///< highlight and attenuation for this view
+  AxisTables tables;                    ///< pipeline `axis` only
   double log_zoom = 0;                  ///< ln of their largest zoom, for render.levels; 0 without a lens
   std::vector<Volume> pyramid;          ///< levels 1, 2 … of render.levels (volume/pyramid.h)
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};
 };
+
+/// Whether any point of the displayed volume may look elsewhere in the data.
+inline bool is_warped(const PreparedScene& prepared) { return !prepared.maps.empty(); }
 
 /// Works out the rest. Throws UsageError where scene and data do not fit.
 PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer);

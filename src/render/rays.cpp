@@ -6,6 +6,7 @@
 #include "render/ray_frame.h"
 #include "render/shaders.h"
 #include "render/uniforms.h"
+#include "render/warp_glsl.h"
 
 #include <algorithm>
 
@@ -30,7 +31,7 @@ void set_ray_uniforms(const gl::Functions& gl, const gl::Program& program, const
   // Under a warp a straight ray leaves and enters the data's half-spaces more than once: gpu/warp.glsl tests
   // each sample.
   std::vector<glm::vec4> planes = plane_vectors(prepared.object_clip);
-  if (prepared.lenses.empty()) {
+  if (!is_warped(prepared)) {
     for (const glm::vec4& plane : plane_vectors(prepared.data_clip))
       planes.push_back(plane);
   }
@@ -47,7 +48,7 @@ RayRenderer::RayRenderer(const gl::Functions& gl, const PreparedScene& prepared)
   if (prepared.scene.render.early_termination < 1)
     macros.emplace_back("EARLY_TERMINATION");
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});
-  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "rays.frag", macros);
+  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "rays.frag", macros, {warp_chain(prepared.maps)});
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   program_ = gl::make_program(gl, stages);
   no_vertices_ = gl::make_vertex_array(gl);

@@ -120,25 +120,18 @@ struct Tracer : SharedFunctions {
 
   /// u = u_1 ∘ … ∘ u_n (docs/pipeline.md).
   vec3 data_point(vec3 p) const {
-    if (prepared.lenses.empty())
+    if (!is_warped(prepared))
       return p;
-    vec3 b = box_from_texture(prepared.space, p);
-    for (auto lens = prepared.lenses.rbegin(); lens != prepared.lenses.rend(); ++lens)
-      b = texture_from_object(lens->map, b);
-    return texture_from_box(prepared.space, b);
+    return texture_from_box(prepared.space,
+                            texture_from_object(prepared.maps, box_from_texture(prepared.space, p)));
   }
 
   /// Jᵀ∇v, by texture coordinates.
   vec3 displayed_gradient(vec3 gradient, vec3 p) const {
-    if (prepared.lenses.empty())
+    if (!is_warped(prepared))
       return gradient;
-    vec3 b = box_from_texture(prepared.space, p);
-    dmat3 total(1);
-    for (auto lens = prepared.lenses.rbegin(); lens != prepared.lenses.rend(); ++lens) {
-      total = jacobian(lens->map, b) * total;
-      b = texture_from_object(lens->map, b);
-    }
-    return ((gradient / prepared.space.size) * total) * prepared.space.size;
+    const dmat3 j = jacobian(prepared.maps, box_from_texture(prepared.space, p));
+    return ((gradient / prepared.space.size) * j) * prepared.space.size;
   }
 
   /// Inside the volume and the planes that clip the data.
@@ -149,11 +142,22 @@ struct Tracer : SharedFunctions {
                        [&](const Plane& plane) { return signed_value(plane, t) >= 0; });
   }
 
+  /// Attenuation and highlight at the displayed point p.
+  vec2 focus_at(vec3 p) const {
+    return {has_attenuation(prepared.effects) ? attenuation_at(prepared.effects, p) : 1,
+            has_highlight(prepared.effects) ? highlight_at(prepared.effects, p) : 0};
+  }
+
+  /// A straight colour and its opacity per reference length after both.
+  vec4 with_effects(vec4 color, vec2 focus) const {
+    return vec4(mix(vec3(color), prepared.effects.highlight_color, focus.y), color.w * focus.x);
+  }
+
   vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
     if (!prepared.pyramid.empty())
       level = level_at(prepared, p);
     const vec3 t = data_point(p);
-    if (!prepared.lenses.empty() && !shows_data(t))
+    if (is_warped(prepared) && !shows_data(t))
       return gathered;
     const Mode mode = prepared.scene.render.mode;
     if (classified != nullptr) {
@@ -162,13 +166,17 @@ struct Tracer : SharedFunctions {
     }
     const real value = displayed_value(t);
     if (mode == Mode::mip)
-      return vec4(max(gathered.x, value), 0, 0, 1);
-    const vec4 color = evaluate(prepared.transfer, value);
-    if (mode == Mode::xray)
-      return gathered + vec4(color.w * ratio);
+      return value > gathered.x ? vec4(value, focus_at(p), 1) : gathered;
+    vec4 color = evaluate(prepared.transfer, value);
+    if (mode == Mode::xray) {
+      const vec4 grey = with_effects(vec4(1, 1, 1, color.w * ratio), focus_at(p));
+      return gathered + this->associated(vec3(grey), grey.w);
+    }
     vec3 rgb(color);
     if (prepared.scene.render.shading == Shading::diffuse && color.w > 0)
       rgb = shaded(rgb, t, p, to_eye);
+    color = with_effects(vec4(rgb, color.w), focus_at(p));
+    rgb = vec3(color);
     const real alpha = correction == Correction::none ? color.w : this->corrected_opacity(color.w, ratio);
     return this->under(gathered, this->associated(rgb, alpha));
   }
@@ -180,7 +188,7 @@ struct Tracer : SharedFunctions {
       interval = this->clip_interval(interval, ray, vec4(plane.normal, -plane.offset));
     };
     std::for_each(prepared.object_clip.begin(), prepared.object_clip.end(), cut);
-    if (prepared.lenses.empty())
+    if (!is_warped(prepared))
       std::for_each(prepared.data_clip.begin(), prepared.data_clip.end(), cut);
     const bool mip = prepared.scene.render.mode == Mode::mip;
     vec4 gathered = mip ? vec4(-std::numeric_limits<real>::infinity(), 0, 0, 0) : vec4(0);
@@ -202,7 +210,7 @@ struct Tracer : SharedFunctions {
       return gathered;
     if (gathered.w == 0)
       return vec4(0);
-    const vec4 color = evaluate(prepared.transfer, gathered.x);
+    const vec4 color = with_effects(evaluate(prepared.transfer, gathered.x), vec2(gathered.y, gathered.z));
     return this->associated(vec3(color), color.w);
   }
 };

@@ -172,9 +172,9 @@ void put_over_background(Image& image, const glm::dvec4& background) {
 
 void show_line_integrals(Image& image, double scale) {
   for (std::size_t i = 0; i + 3 < image.pixels.size(); i += 4) {
-    const float grey = static_cast<float>(static_cast<double>(image.pixels[i]) * scale);
-    image.pixels[i] = image.pixels[i + 1] = image.pixels[i + 2] = grey;
-    image.pixels[i + 3] = std::min(1.0F, grey);
+    for (std::size_t c = 0; c < 4; ++c)
+      image.pixels[i + c] = static_cast<float>(static_cast<double>(image.pixels[i + c]) * scale);
+    image.pixels[i + 3] = std::min(1.0F, image.pixels[i + 3]);
   }
 }
 

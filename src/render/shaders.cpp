@@ -11,10 +11,12 @@ const std::vector<EmbeddedFile>& embedded_shaders(); // made at build time
 
 namespace {
 
-const std::string& shader_text(const std::string& name) {
-  for (const EmbeddedFile& file : embedded_shaders()) {
-    if (file.name == name)
-      return file.text;
+const std::string& shader_text(const std::string& name, const std::vector<EmbeddedFile>& generated) {
+  for (const std::vector<EmbeddedFile>* files : {&generated, &embedded_shaders()}) {
+    for (const EmbeddedFile& file : *files) {
+      if (file.name == name)
+        return file.text;
+    }
   }
   throw GraphicsError("shader file " + name + " is not part of this program; build it again");
 }
@@ -22,9 +24,10 @@ const std::string& shader_text(const std::string& name) {
 /// Appends `name` with its includes before the lines that follow them, one piece per run of lines, so that
 /// messages name the right file. A piece's lines count from its own first line; blank lines keep the count
 /// true.
-void append_expanded(std::vector<gl::ShaderSource>& pieces, GLenum stage, const std::string& name) {
+void append_expanded(std::vector<gl::ShaderSource>& pieces, GLenum stage, const std::string& name,
+                     const std::vector<EmbeddedFile>& generated) {
   const std::string marker = "#include \"";
-  std::istringstream lines(shader_text(name));
+  std::istringstream lines(shader_text(name, generated));
   std::string line;
   std::string text;
   int line_count = 0;
@@ -35,7 +38,8 @@ void append_expanded(std::vector<gl::ShaderSource>& pieces, GLenum stage, const 
       continue;
     }
     pieces.push_back({stage, name, text + "\n"});
-    append_expanded(pieces, stage, line.substr(marker.size(), line.find('"', marker.size()) - marker.size()));
+    append_expanded(pieces, stage, line.substr(marker.size(), line.find('"', marker.size()) - marker.size()),
+                    generated);
     text = std::string(static_cast<std::size_t>(line_count), '\n');
   }
   pieces.push_back({stage, name, text});
@@ -44,12 +48,13 @@ void append_expanded(std::vector<gl::ShaderSource>& pieces, GLenum stage, const 
 } // namespace
 
 std::vector<gl::ShaderSource> shader_stage(GLenum stage, const std::string& entry,
-                                           const std::vector<std::string>& macros) {
+                                           const std::vector<std::string>& macros,
+                                           const std::vector<EmbeddedFile>& generated) {
   std::string head = "#version 330 core\n#define real float\n";
   for (const std::string& macro : macros)
     head += "#define " + macro + "\n";
   std::vector<gl::ShaderSource> pieces = {{stage, "macros of " + entry, head}};
-  append_expanded(pieces, stage, entry);
+  append_expanded(pieces, stage, entry, generated);
   return pieces;
 }
 

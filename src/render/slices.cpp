@@ -7,6 +7,7 @@
 #include "render/stack_geometry.h"
 #include "render/tiled_draw.h"
 #include "render/uniforms.h"
+#include "render/warp_glsl.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -24,6 +25,23 @@ glm::vec2 value_from_unit(const Volume& volume) {
   return {volume.max > volume.min ? volume.max - volume.min : 1, volume.min};
 }
 
+/// Under MIP the winning sample keeps its own highlight and attenuation, which the largest of each channel
+/// would mix up: a depth test picks the sample instead.
+bool picks_winner(const PreparedScene& prepared) {
+  return prepared.scene.render.mode == Mode::mip &&
+         (has_highlight(prepared.effects) || has_attenuation(prepared.effects));
+}
+
+/// The largest value wins; of equal ones the nearest, as along a ray.
+void set_depth_test(const gl::Functions& gl, const RenderSettings& render) {
+  gl.Disable(GL_BLEND);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(render.order == Order::back_to_front ? GL_GEQUAL : GL_GREATER);
+  gl.ClearDepth(0);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+}
+
 void set_blending(const gl::Functions& gl, const RenderSettings& render) {
   gl.Enable(GL_BLEND);
   gl.BlendEquation(render.mode == Mode::mip ? GL_MAX : GL_FUNC_ADD);
@@ -39,16 +57,17 @@ void set_blending(const gl::Functions& gl, const RenderSettings& render) {
 } // namespace
 
 SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
+  const std::vector<EmbeddedFile> generated = {warp_chain(prepared.maps)};
   std::vector<gl::ShaderSource> stages =
       shader_stage(GL_VERTEX_SHADER, "slices.vert", common_macros(prepared));
-  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "slices.frag", common_macros(prepared));
+  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "slices.frag", common_macros(prepared), generated);
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   program_ = gl::make_program(gl, stages);
   vertex_array_ = gl::make_vertex_array(gl);
   no_vertices_ = gl::make_vertex_array(gl);
   if (prepared.scene.render.mode == Mode::mip) {
     std::vector<gl::ShaderSource> second = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});
-    const auto classify = shader_stage(GL_FRAGMENT_SHADER, "classify_maximum.frag", {});
+    const auto classify = shader_stage(GL_FRAGMENT_SHADER, "classify_maximum.frag", common_macros(prepared));
     second.insert(second.end(), classify.begin(), classify.end());
     classify_program_ = gl::make_program(gl, second);
   }
@@ -107,6 +126,8 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   if (render.mode == Mode::mip && (!maxima_ || maxima_->width != target.width ||
                                    maxima_->height != target.height || maxima_->format != target.format)) {
     maxima_ = gl::make_target(gl, target.width, target.height, target.format);
+    if (picks_winner(prepared))
+      gl::attach_depth(gl, *maxima_);
   }
   gl::bind_target(gl, maxima_ ? *maxima_ : target);
   gl.Disable(GL_DEPTH_TEST);
@@ -124,7 +145,10 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   set_uniform(gl, program_, "slope_from_pixel",
               glm::vec4(2 * half_width(view) / view.width, 2 * view.half_height / view.height,
                         -half_width(view), -view.half_height));
-  set_blending(gl, render);
+  if (picks_winner(prepared))
+    set_depth_test(gl, render);
+  else
+    set_blending(gl, render);
   gl.BindVertexArray(vertex_array_.name());
   draw_stack(scene, progress);
   if (maxima_)
@@ -137,6 +161,7 @@ void SliceRenderer::classify_maxima(const PreparedScene& prepared, const GpuScen
   const gl::Functions& gl = *gl_;
   gl::bind_target(gl, target);
   gl.Disable(GL_BLEND);
+  gl.Disable(GL_DEPTH_TEST);
   gl.UseProgram(classify_program_.name());
   set_common_uniforms(gl, classify_program_, prepared, scene);
   gl.ActiveTexture(GL_TEXTURE2);

@@ -42,16 +42,23 @@ void append_tiles(StackGeometry& geometry, const LensMesh& mesh, const TileCuts&
 
 StackGeometry make_stack_geometry(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
-  const bool warped = !prepared.lenses.empty();
+  const bool warped = is_warped(prepared);
+  // A lens whose footprint no later warp moves is covered tightly, a list of others by the box that holds
+  // all.
+  const bool lenses_only = prepared.lenses.size() == prepared.maps.size();
   SliceRequest request;
   request.box = prepared.box;
   request.view = prepared.view;
   request.spacing = prepared.spacing;
   request.order =
       render.order == Order::front_to_back ? SliceOrder::front_to_back : SliceOrder::back_to_front;
-  if (!warped) {
-    request.clip = prepared.data_clip;
-    request.clip.insert(request.clip.end(), prepared.object_clip.begin(), prepared.object_clip.end());
+  if (!lenses_only || !warped)
+    request.clip = prepared.object_clip;
+  if (!warped)
+    request.clip.insert(request.clip.end(), prepared.data_clip.begin(), prepared.data_clip.end());
+  if (!lenses_only) {
+    request.low = prepared.object_low;
+    request.high = prepared.object_high;
   }
   const SliceStack stack = make_slice_stack(request);
 
@@ -62,7 +69,7 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
     const Polygon polygon(stack.corners.begin() + slice.first,
                           stack.corners.begin() + slice.first + slice.count);
     LensMesh mesh;
-    if (!warped) {
+    if (!warped || !lenses_only) {
       mesh = cover_slice(polygon, {}, prepared.space, {});
     } else if (render.pipeline == Pipeline::fragment) {
       mesh = cover_slice(polygon, prepared.lenses, prepared.space, prepared.object_clip);

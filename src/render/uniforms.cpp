@@ -1,6 +1,7 @@
 #include "render/uniforms.h"
 
 #include "render/tiled_draw.h"
+#include "render/warp_glsl.h"
 
 namespace slicelens {
 
@@ -32,13 +33,23 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
   }
   if (prepared.view.projection == Projection::perspective)
     macros.emplace_back("PERSPECTIVE");
-  if (!prepared.lenses.empty()) {
-    macros.push_back("LENS_COUNT " + std::to_string(prepared.lenses.size()));
+  if (render.pipeline == Pipeline::axis) {
+    macros.emplace_back("AXIS_TABLES");
+    if (prepared.tables.mask == AxisMask::weight)
+      macros.emplace_back("AXIS_WEIGHTS");
+  } else if (is_warped(prepared)) {
+    macros.emplace_back("WARPED");
     if (render.pipeline == Pipeline::tessellated)
       macros.emplace_back("WARP_TESSELLATED");
     if (render.pipeline == Pipeline::fragment)
       macros.emplace_back("WARP_FRAGMENT");
   }
+  if (has_highlight(prepared.effects))
+    macros.emplace_back("HIGHLIGHT");
+  if (has_attenuation(prepared.effects))
+    macros.emplace_back("ATTENUATION");
+  if (is_warped(prepared) && !prepared.data_clip.empty())
+    macros.emplace_back("DATA_PLANES");
   macros.push_back("MAX_CLIP_PLANES " +
                    std::to_string(1 + prepared.data_clip.size() + prepared.object_clip.size()));
   switch (correction_of(prepared)) {
@@ -61,46 +72,32 @@ std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes) {
   return vectors;
 }
 
-void set_lens_uniforms(const gl::Functions& gl, const gl::Program& program,
-                       const std::vector<LensTessellation>& lenses, const BoxSpace& space) {
-  set_uniform(gl, program, "box_size", glm::vec3(space.size));
-  for (std::size_t i = 0; i < lenses.size(); ++i) {
-    const LamarMap& map = lenses[i].map;
-    const std::string lens = "lenses[" + std::to_string(i) + "].";
-    const auto set_vector = [&](const char* name, const glm::dvec3& v) {
-      set_uniform(gl, program, (lens + name).c_str(), glm::vec3(v));
-    };
-    const auto set_number = [&](const char* name, double v) {
-      set_uniform(gl, program, (lens + name).c_str(), static_cast<float>(v));
-    };
-    set_vector("center", map.center);
-    set_vector("axis", map.axis);
-    set_vector("forward", map.forward);
-    set_vector("right", map.right);
-    set_vector("up", map.up);
-    set_number("center_depth", map.center_depth);
-    set_uniform(gl, program, (lens + "square").c_str(), map.square ? 1 : 0);
-    set_uniform(gl, program, (lens + "border").c_str(), map.border);
-    set_number("minification", map.minification);
-    set_number("inner", map.inner);
-    set_number("outer", map.outer);
-    set_number("depth_inner", map.depth_inner);
-    set_number("depth_outer", map.depth_outer);
-  }
-}
-
 void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared) {
-  set_lens_uniforms(gl, program, prepared.lenses, prepared.space);
+  if (prepared.scene.render.pipeline != Pipeline::axis)
+    set_warp_maps(gl, program, prepared.maps, prepared.space);
   const std::vector<glm::vec4> planes = plane_vectors(prepared.data_clip);
   set_uniform(gl, program, "data_plane_count", static_cast<int>(planes.size()));
   if (!planes.empty())
     set_uniform(gl, program, "data_planes", std::span<const glm::vec4>(planes));
 }
 
+void set_axis_tables(const gl::Functions& gl, const gl::Program& program, const AxisTextures& tables) {
+  const std::array<const char*, 3> names = {"axis_table_x", "axis_table_y", "axis_table_z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    gl.ActiveTexture(GL_TEXTURE0 + axis_unit + static_cast<GLenum>(axis));
+    gl.BindTexture(GL_TEXTURE_1D, tables[axis].name());
+    set_uniform(gl, program, names[axis], static_cast<int>(axis_unit + axis));
+  }
+}
+
 void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
                          const GpuScene& scene) {
-  if (!prepared.lenses.empty())
+  if (is_warped(prepared))
     set_warp_uniforms(gl, program, prepared);
+  if (has_highlight(prepared.effects) || has_attenuation(prepared.effects))
+    set_struct(gl, program, "effects", prepared.effects);
+  if (scene.axis[0])
+    set_axis_tables(gl, program, scene.axis);
   const Volume& volume = prepared.volume;
   const LightSettings& light = prepared.scene.light;
   gl.ActiveTexture(GL_TEXTURE0);

@@ -12,12 +12,12 @@ namespace slicelens {
 /// Macros for sampling, mode and shading, as shaders/ names them.
 std::vector<std::string> common_macros(const PreparedScene& prepared);
 
-/// Sets `lenses` and `box_size` of shaders/gpu/warp.glsl. The program must be in use.
-void set_lens_uniforms(const gl::Functions& gl, const gl::Program& program,
-                       const std::vector<LensTessellation>& lenses, const BoxSpace& space);
-
 /// Sets what shaders/gpu/warp.glsl declares. The program must be in use.
 void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared);
+
+/// Texture unit of the first of Cohen's tables: behind the volume, the transfer function, the maxima of MIP
+/// and the levels of a pyramid.
+inline constexpr GLenum axis_unit = 12;
 
 /// Planes as GLSL takes them: (normal, −offset).
 std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes);

@@ -55,7 +55,8 @@ void camera_keys(Visitor& visit, Settings& s) {
 template <class Visitor, class Settings>
 void render_keys(Visitor& visit, Settings& s) {
   visit.key("pipeline", s.pipeline,
-            "where the map is evaluated: slices (no warp), tessellated (per vertex), fragment, "
+            "where the map is evaluated: slices (no warp), tessellated (per vertex), axis (in three 1D "
+            "textures), fragment, "
             "fixed-function (per vertex, without shaders), rays (GPU), or reference (CPU, double)");
   visit.key("mode", s.mode,
             "dvr (emission and absorption), mip (maximum) or xray (line integral of the opacity)");
@@ -85,6 +86,9 @@ void render_keys(Visitor& visit, Settings& s) {
       "levels", s.levels,
       "levels of a mip pyramid, 1 to 8: a lens' zoom region reads the finest, what is outside every lens "
       "the coarsest, a border those between; 1: full resolution everywhere");
+  visit.key("axis_texels", s.axis_texels,
+            "texels of each 1D texture of pipeline axis, 16 to 4096 (none: one for each voxel)");
+  visit.key("axis_filter", s.axis_filter, "how pipeline axis reads its 1D textures: linear or nearest");
   visit.key("early_termination", s.early_termination, "rays stop at this opacity in (0,1]; 1: never",
             Range::unit);
   visit.key("background", s.background, "[r, g, b, a] in [0,1], not associated", Range::unit);
@@ -128,10 +132,68 @@ void lamar_keys(Visitor& visit, Settings& s) {
   visit.key("bounded", s.bounded, "tessellate inside the bounding square of a circle only");
 }
 
+template <class Visitor, class Settings>
+void bifocal_keys(Visitor& visit, Settings& s) {
+  visit.key("focus", s.focus, "[[min,max],[min,max],[min,max]] of the data, texture coordinates");
+  visit.key("shown", s.shown, "[[min,max],[min,max],[min,max]] that it fills on display");
+}
+
+template <class Visitor, class Settings>
+void fisheye_keys(Visitor& visit, Settings& s) {
+  visit.key("center", s.center, "focal point, texture coordinates");
+  visit.per_axis("distortion", s.distortion,
+                 "magnification at the focal point less one; one number or one for each axis",
+                 Range::non_negative);
+}
+
+template <class Visitor, class Settings>
+void lens_box_keys(Visitor& visit, Settings& s) {
+  visit.key("center", s.center, "lens centre, texture coordinates");
+  visit.per_axis("inner", s.inner,
+                 "half-width of the magnified region, texture coordinates; one number or one for each axis",
+                 Range::positive);
+  visit.per_axis("outer", s.outer, "half-width at which the volume is undisturbed again, likewise",
+                 Range::positive);
+  visit.key("magnification", s.magnification, "within the inner half-width", Range::positive);
+}
+
 /// Calls the key function of the warp's kind.
 template <class Visitor, class AnyWarp>
 void warp_keys(Visitor& visit, AnyWarp& warp) {
-  std::visit([&](auto& value) { lamar_keys(visit, value); }, warp);
+  std::visit(
+      [&](auto& value) {
+        using Kind = std::remove_cvref_t<decltype(value)>;
+        if constexpr (std::is_same_v<Kind, LamarLens>)
+          lamar_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Bifocal>)
+          bifocal_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Fisheye>)
+          fisheye_keys(visit, value);
+        else
+          lens_box_keys(visit, value.box);
+      },
+      warp);
+}
+
+template <class Visitor, class Settings>
+void highlight_keys(Visitor& visit, Settings& s) {
+  visit.key("function", s.function,
+            "off, distance (a hat that falls with slope 2 from the middle of the focus region) or focus "
+            "(everything in the region)");
+  visit.key("power", s.power, "of the hat: 1 linear, 2 quadratic, 3 cubic", Range::non_negative);
+  visit.key("color", s.color, "[r, g, b] that is blended in", Range::unit);
+  visit.key("focus", s.focus,
+            "[[min,max],[min,max],[min,max]] on display, texture coordinates (none: the mapping's)");
+}
+
+template <class Visitor, class Settings>
+void attenuation_keys(Visitor& visit, Settings& s) {
+  visit.key("function", s.function,
+            "off, distance (opacity falls to 0 towards all faces) or viewpoint (only in front of the focus "
+            "region)");
+  visit.key("power", s.power, "1 linear, 2 quadratic, 3 cubic", Range::non_negative);
+  visit.key("focus", s.focus,
+            "[[min,max],[min,max],[min,max]] on display, texture coordinates (none: the mapping's)");
 }
 
 template <class Visitor, class Settings>
@@ -163,6 +225,10 @@ void scene_keys(Visitor& visit, Settings& s) {
                 [](auto& v, auto& x) { render_keys(v, x); });
   visit.section("light", s.light, "for shading", [](auto& v, auto& x) { light_keys(v, x); });
   visit.warps("warp", s.warp);
+  visit.section("highlight", s.highlight, "colour blended into a focus region (Cohen et al. 2008)",
+                [](auto& v, auto& x) { highlight_keys(v, x); });
+  visit.section("attenuation", s.attenuation, "opacity lowered outside a focus region (Cohen et al. 2008)",
+                [](auto& v, auto& x) { attenuation_keys(v, x); });
   visit.section("overlay", s.overlay, "what is drawn over it",
                 [](auto& v, auto& x) { scene_overlay_keys(v, x); });
   visit.list("clip", s.clip, "clipping planes", [](auto& v, auto& x) { clip_keys(v, x); });

@@ -121,7 +121,7 @@ void read(const Json& json, const std::string& path, glm::vec<N, double>& value,
 
 template <class T, std::size_t N>
 void read(const Json& json, const std::string& path, std::array<T, N>& value, Range range) {
-  require_array(json, path, N, "numbers");
+  require_array(json, path, N, std::is_class_v<T> ? "lists" : "numbers");
   for (std::size_t i = 0; i < N; ++i)
     read(json[i], path + "[" + std::to_string(i) + "]", value[i], range);
 }
@@ -157,6 +157,12 @@ Json written(const glm::vec<N, double>& value) {
   Json list = Json::array();
   for (int i = 0; i < N; ++i)
     list.push_back(value[i]);
+  return list;
+}
+inline Json written(const AxisRanges& value) {
+  Json list = Json::array();
+  for (const glm::dvec2& range : value)
+    list.push_back(written(range));
   return list;
 }
 template <class T>
@@ -224,6 +230,20 @@ public:
       refuse(full(name), *value, "give a whole number or \"adaptive\"");
     } else {
       read(*value, full(name), field.emplace(), Range::any);
+    }
+  }
+
+  /// Three numbers, or one for all axes.
+  void per_axis(const char* name, glm::dvec3& field, const char*, Range range) {
+    const Json* value = take(name);
+    if (value == nullptr)
+      return;
+    double all = 0;
+    if (value->is_array()) {
+      read(*value, full(name), field, range);
+    } else {
+      read(*value, full(name), all, range);
+      field = glm::dvec3(all);
     }
   }
 
@@ -315,6 +335,9 @@ struct Writer {
   void segments(const char* name, const std::optional<std::size_t>& field, const char*) {
     object[name] = field ? Json(*field) : Json("adaptive");
   }
+  void per_axis(const char* name, const glm::dvec3& field, const char*, Range) {
+    object[name] = field.x == field.y && field.y == field.z ? Json(field.x) : written(field);
+  }
   void warps(const char* name, const std::vector<Warp>& field) {
     Json entries = Json::array();
     for (const Warp& warp : field) {
@@ -359,6 +382,9 @@ struct Lister {
     section(name, T{}, help, visit_keys);
   }
   void segments(const char* name, const std::optional<std::size_t>&, const char* help) {
+    keys.emplace_back(prefix + name, help);
+  }
+  void per_axis(const char* name, const glm::dvec3&, const char* help, Range) {
     keys.emplace_back(prefix + name, help);
   }
   void warps(const char* name, const std::vector<Warp>&) {

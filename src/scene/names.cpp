@@ -9,10 +9,13 @@ const std::vector<EnumName<ProjectionName>>& names_of(ProjectionName) {
 }
 
 const std::vector<EnumName<Pipeline>>& names_of(Pipeline) {
-  static const std::vector<EnumName<Pipeline>> names = {
-      {Pipeline::slices, "slices"},     {Pipeline::tessellated, "tessellated"},
-      {Pipeline::fragment, "fragment"}, {Pipeline::fixed_function, "fixed-function"},
-      {Pipeline::rays, "rays"},         {Pipeline::reference, "reference"}};
+  static const std::vector<EnumName<Pipeline>> names = {{Pipeline::slices, "slices"},
+                                                        {Pipeline::tessellated, "tessellated"},
+                                                        {Pipeline::axis, "axis"},
+                                                        {Pipeline::fragment, "fragment"},
+                                                        {Pipeline::fixed_function, "fixed-function"},
+                                                        {Pipeline::rays, "rays"},
+                                                        {Pipeline::reference, "reference"}};
   return names;
 }
 
@@ -76,6 +79,27 @@ const std::vector<EnumName<VolumeTexture>>& names_of(VolumeTexture) {
 const std::vector<EnumName<TransferTexture>>& names_of(TransferTexture) {
   static const std::vector<EnumName<TransferTexture>> names = {{TransferTexture::rgba8, "rgba8"},
                                                                {TransferTexture::rgba32f, "rgba32f"}};
+  return names;
+}
+
+const std::vector<EnumName<AxisFilter>>& names_of(AxisFilter) {
+  static const std::vector<EnumName<AxisFilter>> names = {{AxisFilter::linear, "linear"},
+                                                          {AxisFilter::nearest, "nearest"}};
+  return names;
+}
+
+const std::vector<EnumName<HighlightFunction>>& names_of(HighlightFunction) {
+  static const std::vector<EnumName<HighlightFunction>> names = {{HighlightFunction::off, "off"},
+                                                                 {HighlightFunction::distance, "distance"},
+                                                                 {HighlightFunction::focus, "focus"}};
+  return names;
+}
+
+const std::vector<EnumName<AttenuationFunction>>& names_of(AttenuationFunction) {
+  static const std::vector<EnumName<AttenuationFunction>> names = {
+      {AttenuationFunction::off, "off"},
+      {AttenuationFunction::distance, "distance"},
+      {AttenuationFunction::viewpoint, "viewpoint"}};
   return names;
 }
 

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "core/text.h"
 #include "scene/names.h"
+#include "warp/axis_tables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,6 +109,60 @@ void validate_fixed_function(const RenderSettings& render) {
     refuse("has no filter 'linear-exact', which is a shader's", "render.filter", "linear or nearest");
 }
 
+/// Where Cohen's effects can be drawn.
+void validate_effects(const Scene& scene) {
+  validate(scene.highlight);
+  validate(scene.attenuation);
+  const RenderSettings& render = scene.render;
+  if (render.axis_texels &&
+      (*render.axis_texels < min_axis_texels || *render.axis_texels > max_axis_texels)) {
+    throw UsageError("render.axis_texels must be from " + std::to_string(min_axis_texels) + " to " +
+                     std::to_string(max_axis_texels) + ", not " + std::to_string(*render.axis_texels));
+  }
+  if (!has_effects(scene))
+    return;
+  const std::string section =
+      scene.highlight.function != HighlightFunction::off ? "highlight" : "attenuation";
+  if (render.pipeline == Pipeline::slices || render.pipeline == Pipeline::fixed_function) {
+    throw UsageError("pipeline '" + word(render.pipeline) + "' draws no " + section +
+                     "; use axis, tessellated, fragment, rays or reference");
+  }
+  if (render.classification == Classification::pre) {
+    throw UsageError("render.classification 'pre' holds colours whose opacity is corrected already, which " +
+                     section + " would change too late; set render.classification to post");
+  }
+  (void)focus_effects(scene.highlight, scene.attenuation, focus_region(scene.warp));
+}
+
+/// Each warp by a pipeline that can draw it.
+void validate_warps(const Scene& scene) {
+  const std::string pipeline = word(scene.render.pipeline);
+  const bool meshed =
+      scene.render.pipeline == Pipeline::tessellated || scene.render.pipeline == Pipeline::fixed_function;
+  for (const Warp& warp : scene.warp) {
+    validate(warp);
+    const std::vector<std::string>& able = info_of(warp).pipelines;
+    if (std::find(able.begin(), able.end(), pipeline) == able.end()) {
+      const std::string reason = scene.render.pipeline == Pipeline::slices ? "draws no warp"
+                                 : scene.render.pipeline == Pipeline::axis ? "needs a separable warp"
+                                                                           : "cannot draw every warp";
+      throw UsageError("pipeline '" + pipeline + "' " + reason + "; '" + kind_of(warp) +
+                       "' can be drawn by " + join(able));
+    }
+    const auto* lens = std::get_if<LamarLens>(&warp);
+    if (lens != nullptr && !lens->homogeneous && !meshed) {
+      throw UsageError("homogeneous false is about corners of triangles; pipeline '" + pipeline +
+                       "' has none, give tessellated or fixed-function");
+    }
+  }
+  if (scene.overlay.wireframe != Wireframe::none && !meshed) {
+    throw UsageError("overlay.wireframe shows the triangles of a lens; pipeline '" + pipeline +
+                     "' has none, give tessellated or fixed-function");
+  }
+  if (scene.render.pipeline == Pipeline::axis)
+    (void)make_axis_tables(scene.warp, {}, {0, 0, 0}); // refuses lists that have no tables
+}
+
 void validate_bricks(const Scene& scene) {
   const RenderSettings& render = scene.render;
   const bool bricked = render.levels > 1 || render.tiles != std::array<std::size_t, 3>{1, 1, 1};
@@ -140,9 +195,13 @@ void validate_bricks(const Scene& scene) {
     return;
   double zoom = 0;
   for (const Warp& warp : scene.warp) {
-    const auto& lens = std::get<LamarLens>(warp);
-    zoom = std::max(zoom, lens.zoom);
-    if (render.pipeline == Pipeline::tessellated && !lens.homogeneous) {
+    const auto* lens = std::get_if<LamarLens>(&warp);
+    if (lens == nullptr) {
+      throw UsageError("render.levels follow the zoom of a lens 'lamar', and warp '" + kind_of(warp) +
+                       "' has none; set render.levels to 1");
+    }
+    zoom = std::max(zoom, lens->zoom);
+    if (render.pipeline == Pipeline::tessellated && !lens->homogeneous) {
       throw UsageError("render.levels follow the homogeneous weights; set warp.homogeneous to true or "
                        "render.levels to 1");
     }
@@ -156,8 +215,24 @@ void validate_bricks(const Scene& scene) {
 } // namespace
 
 bool draws_slices(Pipeline pipeline) {
-  return pipeline == Pipeline::slices || pipeline == Pipeline::tessellated ||
+  return pipeline == Pipeline::slices || pipeline == Pipeline::tessellated || pipeline == Pipeline::axis ||
          pipeline == Pipeline::fragment || pipeline == Pipeline::fixed_function;
+}
+
+bool has_effects(const Scene& scene) {
+  return scene.highlight.function != HighlightFunction::off ||
+         scene.attenuation.function != AttenuationFunction::off;
+}
+
+Pipeline default_pipeline(const Scene& scene) {
+  if (scene.warp.empty())
+    return has_effects(scene) ? Pipeline::axis : Pipeline::slices;
+  const std::string& own = info_of(scene.warp[0]).pipelines[0];
+  for (const auto& [pipeline, name] : names_of(Pipeline{})) {
+    if (own == name)
+      return pipeline;
+  }
+  return Pipeline::fragment;
 }
 
 void use_pipeline_defaults(RenderSettings& render, bool classification_given, bool target_given,
@@ -196,26 +271,9 @@ void validate(const Scene& scene) {
   if (scene.light.direction && glm::length(*scene.light.direction) == 0) {
     throw UsageError("light.direction is the zero vector; give a direction");
   }
-  for (const Warp& warp : scene.warp) {
-    validate(warp);
-    if (scene.render.pipeline == Pipeline::slices) {
-      throw UsageError("pipeline 'slices' draws no warp; '" + kind_of(warp) +
-                       "' can be drawn by tessellated, fragment, fixed-function, rays or reference");
-    }
-  }
   validate(scene.overlay);
-  const bool meshed =
-      scene.render.pipeline == Pipeline::tessellated || scene.render.pipeline == Pipeline::fixed_function;
-  for (const Warp& warp : scene.warp) {
-    if (!std::get<LamarLens>(warp).homogeneous && !meshed) {
-      throw UsageError("homogeneous false is about corners of triangles; pipeline '" +
-                       word(scene.render.pipeline) + "' has none, give tessellated or fixed-function");
-    }
-  }
-  if (scene.overlay.wireframe != Wireframe::none && !meshed) {
-    throw UsageError("overlay.wireframe shows the triangles of a lens; pipeline '" +
-                     word(scene.render.pipeline) + "' has none, give tessellated or fixed-function");
-  }
+  validate_warps(scene);
+  validate_effects(scene);
   validate_bricks(scene);
   for (const ClipSettings& plane : scene.clip) {
     if (glm::length(plane.normal) == 0)

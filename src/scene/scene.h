@@ -2,6 +2,7 @@
 #pragma once
 
 #include "volume/volume.h"
+#include "warp/focus_effects.h"
 #include "warp/warp.h"
 
 #include <glm/glm.hpp>
@@ -50,7 +51,7 @@ struct CameraSettings {
   std::optional<double> parallel_scale = std::nullopt;
 };
 
-enum class Pipeline { slices, tessellated, fragment, fixed_function, rays, reference };
+enum class Pipeline { slices, tessellated, axis, fragment, fixed_function, rays, reference };
 enum class Mode { dvr, mip, xray };
 enum class Order { back_to_front, front_to_back };
 enum class OpacityCorrection { fragment, frame, none };
@@ -62,6 +63,8 @@ enum class Filter { nearest, linear, linear_exact };
 enum class Target { rgba8, rgba16f, rgba32f };
 enum class VolumeTexture { automatic, r8, r16, r32f };
 enum class TransferTexture { rgba8, rgba32f };
+/// How pipeline `axis` reads its tables.
+enum class AxisFilter { linear, nearest };
 enum class ContextName { automatic, osmesa, egl, window };
 
 /// Section `render`.
@@ -82,7 +85,10 @@ struct RenderSettings {
   TransferTexture transfer_texture = TransferTexture::rgba32f;
   std::array<std::size_t, 3> tiles{1, 1, 1}; ///< textures that the volume is held in, on each axis
   std::size_t levels = 1;                    ///< of a mip pyramid that a lens reads (1: full resolution only)
-  double early_termination = 1;              ///< rays stop when their opacity reaches this; 1: never
+  std::optional<std::size_t> axis_texels =
+      std::nullopt; ///< of each table of `axis`; none: one for each voxel
+  AxisFilter axis_filter = AxisFilter::linear;
+  double early_termination = 1; ///< rays stop when their opacity reaches this; 1: never
   glm::dvec4 background{0, 0, 0, 1};
   ContextName context = ContextName::automatic;
 };
@@ -127,6 +133,8 @@ struct Scene {
   LightSettings light;
   std::vector<ClipSettings> clip;
   std::vector<Warp> warp; ///< in forward order (docs/pipeline.md)
+  Highlight highlight;
+  Attenuation attenuation;
   OverlaySettings overlay;
 };
 
@@ -137,6 +145,13 @@ inline constexpr std::size_t max_levels = 8;
 
 /// Whether a pipeline blends slices (and not rays).
 bool draws_slices(Pipeline pipeline);
+
+/// Whether the scene highlights or attenuates anything.
+bool has_effects(const Scene& scene);
+
+/// The pipeline of a scene that names none: slices, or the first warp's own paper's, or axis where there are
+/// effects only.
+Pipeline default_pipeline(const Scene& scene);
 
 /// Defaults that the pipeline decides, for keys that were not given: `fixed-function` takes classification
 /// pre, target rgba8 and opacity correction frame.

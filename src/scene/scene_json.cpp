@@ -24,8 +24,8 @@ Scene scene_from_json(const std::string& text, const std::string& source,
     reader.finish();
     if (!scene.volume.file && !scene.volume.phantom)
       scene.volume.phantom = "head";
-    if (!scene.warp.empty() && !has_value(json, "render", "pipeline"))
-      scene.render.pipeline = Pipeline::tessellated;
+    if (!has_value(json, "render", "pipeline"))
+      scene.render.pipeline = default_pipeline(scene);
     use_pipeline_defaults(scene.render, has_value(json, "render", "classification"),
                           has_value(json, "render", "target"),
                           has_value(json, "render", "opacity_correction"));

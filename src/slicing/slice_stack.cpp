@@ -3,6 +3,8 @@
 #include "core/errors.h"
 #include "core/text.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -24,8 +26,13 @@ PlaneRange plane_range(const Interval& distance_range, double spacing) {
 SliceStack make_slice_stack(const SliceRequest& request) {
   const View& view = request.view;
   const double anchor = depth(view, center(request.box));
+  const bool whole = request.low == glm::dvec3(0) && request.high == glm::dvec3(1);
+  const glm::dmat4 texture_from_region =
+      glm::scale(glm::translate(glm::dmat4(1), request.low), request.high - request.low);
+  const Box region{whole ? request.box.world_from_texture
+                         : request.box.world_from_texture * texture_from_region};
   Interval range{0, 0};
-  for (const glm::dvec3& corner : corners(request.box)) {
+  for (const glm::dvec3& corner : corners(region)) {
     const double distance = depth(view, corner) - anchor;
     range.near = std::min(range.near, distance);
     range.far = std::max(range.far, distance);
@@ -42,7 +49,11 @@ SliceStack make_slice_stack(const SliceRequest& request) {
     slice.index = request.order == SliceOrder::front_to_back ? planes.first + i : planes.last - i;
     slice.distance = (static_cast<double>(slice.index) + 0.5) * request.spacing;
     const Plane world{view.forward, glm::dot(view.forward, view.eye) + anchor + slice.distance};
-    Polygon polygon = cut_unit_cube(pull_back(world, request.box.world_from_texture));
+    Polygon polygon = cut_unit_cube(pull_back(world, region.world_from_texture));
+    if (!whole) {
+      for (glm::dvec3& corner : polygon)
+        corner = request.low + corner * (request.high - request.low);
+    }
     for (const Plane& plane : request.clip)
       polygon = clip(polygon, plane);
     if (polygon.empty())

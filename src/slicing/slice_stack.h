@@ -20,6 +20,10 @@ struct SliceRequest {
   double spacing = 1; ///< Δ, distance between neighbouring planes along view.forward, world units, > 0
   SliceOrder order = SliceOrder::back_to_front;
   std::vector<Plane> clip; ///< half-spaces in texture space; only what lies in all of them is kept
+  /// What is cut: a box of texture coordinates, larger than [0,1]³ where a warp shows data beyond the
+  /// volume's box. Planes count from the centre of [0,1]³ all the same.
+  glm::dvec3 low{0};
+  glm::dvec3 high{1};
 };
 
 /// One slice: corners [first, first + count) of the stack.
@@ -34,7 +38,7 @@ struct Slice {
 /// The polygons in drawing order.
 struct SliceStack {
   std::vector<Slice> slices;
-  std::vector<glm::dvec3> corners; ///< texture coordinates in [0,1]³
+  std::vector<glm::dvec3> corners; ///< texture coordinates
 };
 
 /// Most planes a stack may have; finer spacings are refused rather than left to run for hours.

@@ -76,6 +76,24 @@ double magnification(const LamarMap& map, const glm::dvec3& p);
 /// planes across the view stay where they are.
 glm::dvec3 object_from_texture(const LamarMap& map, const glm::dvec3& u);
 
+/// Calls set(name, value) for every field as GLSL takes it.
+template <class Set>
+void visit_fields(const LamarMap& map, const Set& set) {
+  set("center", map.center);
+  set("axis", map.axis);
+  set("forward", map.forward);
+  set("right", map.right);
+  set("up", map.up);
+  set("center_depth", map.center_depth);
+  set("square", map.square);
+  set("border", map.border);
+  set("minification", map.minification);
+  set("inner", map.inner);
+  set("outer", map.outer);
+  set("depth_inner", map.depth_inner);
+  set("depth_outer", map.depth_outer);
+}
+
 /// The profile f(r) and f'(r) for minification m = 1/Q.
 struct RadialProfile {
   double value = 0;

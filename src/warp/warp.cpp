@@ -1,34 +1,164 @@
 #include "warp/warp.h"
 
+#include "core/errors.h"
+
 namespace slicelens {
 
 namespace {
 
-struct KindName {
-  std::string operator()(const LamarLens&) const { return "lamar"; }
+/// A visitor of several lambdas.
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
 };
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
 
 } // namespace
 
-std::string kind_of(const Warp& warp) { return std::visit(KindName{}, warp); }
+std::string kind_of(const Warp& warp) {
+  return std::visit(Overloaded{
+                        [](const LamarLens&) { return "lamar"; },
+                        [](const Bifocal&) { return "bifocal"; },
+                        [](const Fisheye&) { return "fisheye"; },
+                        [](const VolumeLens&) { return "volume-lens"; },
+                        [](const ConnectedLens&) { return "connected-lens"; },
+                    },
+                    warp);
+}
 
 const std::vector<WarpInfo>& warp_infos() {
   static const std::vector<WarpInfo> infos = {
       {"lamar",
        "magnification lens with tessellated borders (LaMar, Hamann and Joy 2001)",
        {"tessellated", "fragment", "fixed-function", "rays", "reference"}},
+      {"bifocal",
+       "shows one box of the data in another, squeezes the rest (Cohen, Brodlie and Phillips 2008)",
+       {"axis", "fragment", "rays", "reference"}},
+      {"fisheye",
+       "magnifies about a focal point, less and less towards the faces (Cohen, Brodlie and Phillips 2008)",
+       {"axis", "fragment", "rays", "reference"}},
+      {"volume-lens",
+       "magnifies within a box fixed in the volume, and cuts at its faces (Cohen, Brodlie and Phillips 2008)",
+       {"axis", "fragment", "rays", "reference"}},
+      {"connected-lens",
+       "the volume lens without the cut: continuous everywhere",
+       {"axis", "fragment", "rays", "reference"}},
   };
   return infos;
 }
 
+const WarpInfo& info_of(const Warp& warp) {
+  for (const WarpInfo& info : warp_infos()) {
+    if (info.kind == kind_of(warp))
+      return info;
+  }
+  throw Error("warp '" + kind_of(warp) + "' is missing in the list of warps");
+}
+
 std::optional<Warp> make_warp(const std::string& kind) {
-  if (kind == "lamar")
-    return LamarLens{};
+  for (const Warp& warp :
+       std::vector<Warp>{LamarLens{}, Bifocal{}, Fisheye{}, VolumeLens{}, ConnectedLens{}}) {
+    if (kind_of(warp) == kind)
+      return warp;
+  }
   return std::nullopt;
 }
 
 void validate(const Warp& warp) {
   std::visit([](const auto& value) { validate(value); }, warp);
+}
+
+bool is_separable(const Warp& warp) { return !std::holds_alternative<LamarLens>(warp); }
+
+std::optional<AxisRanges> focus_region(const Warp& warp) {
+  using Result = std::optional<AxisRanges>;
+  return std::visit(
+      Overloaded{
+          [](const LamarLens&) { return Result(); },
+          [](const Bifocal& bifocal) { return Result(bifocal.shown); },
+          [](const Fisheye& fisheye) { return Result(ranges_of(fisheye.center, fisheye.center)); },
+          [](const auto& lens) { return Result(focus_of(lens.box)); },
+      },
+      warp);
+}
+
+std::optional<AxisRanges> focus_region(const std::vector<Warp>& warps) {
+  std::optional<AxisRanges> region;
+  for (const Warp& warp : warps) {
+    if (const auto own = focus_region(warp))
+      region = own;
+  }
+  return region;
+}
+
+WarpMap map_of(const Warp& warp, const BoxSpace& space, const WarpView& view) {
+  return std::visit(
+      Overloaded{
+          [&](const LamarLens& lens) -> WarpMap { return lamar_map(lens, space, view); },
+          [&](const Bifocal& bifocal) -> WarpMap { return bifocal_map(bifocal, space); },
+          [&](const Fisheye& fisheye) -> WarpMap { return fisheye_map(fisheye, space); },
+          [&](const VolumeLens& lens) -> WarpMap { return volume_lens_map(lens.box, space); },
+          [&](const ConnectedLens& lens) -> WarpMap { return connected_lens_map(lens.box, space); },
+      },
+      warp);
+}
+
+glm::dvec3 texture_from_object(const WarpMap& map, const glm::dvec3& p) {
+  return std::visit([&](const auto& value) { return texture_from_object(value, p); }, map);
+}
+glm::dmat3 jacobian(const WarpMap& map, const glm::dvec3& p) {
+  return std::visit([&](const auto& value) { return jacobian(value, p); }, map);
+}
+glm::dvec3 object_from_texture(const WarpMap& map, const glm::dvec3& u) {
+  return std::visit([&](const auto& value) { return object_from_texture(value, u); }, map);
+}
+
+glm::dvec3 texture_from_object(const std::vector<WarpMap>& maps, const glm::dvec3& p) {
+  glm::dvec3 u = p;
+  for (auto map = maps.rbegin(); map != maps.rend(); ++map)
+    u = texture_from_object(*map, u);
+  return u;
+}
+
+glm::dmat3 jacobian(const std::vector<WarpMap>& maps, const glm::dvec3& p) {
+  glm::dmat3 total(1);
+  glm::dvec3 u = p;
+  for (auto map = maps.rbegin(); map != maps.rend(); ++map) {
+    total = jacobian(*map, u) * total;
+    u = texture_from_object(*map, u);
+  }
+  return total;
+}
+
+glm::dvec3 object_from_texture(const std::vector<WarpMap>& maps, const glm::dvec3& u) {
+  glm::dvec3 p = u;
+  for (const WarpMap& map : maps)
+    p = object_from_texture(map, p);
+  return p;
+}
+
+WarpGlsl glsl_of(const WarpMap& map) {
+  static const std::string axis_library = "lib/axis_maps.glsl";
+  return std::visit(
+      Overloaded{
+          [](const LamarMap&) -> WarpGlsl {
+            return {"", "warp/lamar.glsl", "LamarMap", "lamar"};
+          },
+          [](const BifocalMap&) -> WarpGlsl {
+            return {axis_library, "warp/bifocal.glsl", "BifocalMap", "bifocal"};
+          },
+          [](const FisheyeMap&) -> WarpGlsl {
+            return {axis_library, "warp/fisheye.glsl", "FisheyeMap", "fisheye"};
+          },
+          [](const VolumeLensMap&) -> WarpGlsl {
+            return {axis_library, "warp/volume_lens.glsl", "VolumeLensMap", "volume_lens"};
+          },
+          [](const ConnectedLensMap&) -> WarpGlsl {
+            return {axis_library, "warp/connected_lens.glsl", "ConnectedLensMap", "connected_lens"};
+          },
+      },
+      map);
 }
 
 } // namespace slicelens

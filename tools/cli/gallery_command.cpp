@@ -177,8 +177,10 @@ private:
     entry.pictures.push_back({save(shown.image, scene.name + "_lens.png"),
                               word(input.scene.render.pipeline) + ": " + std::to_string(shown.triangles) +
                                   " triangles, drawn in " + milliseconds(shown.draw_seconds)});
-    const bool affine = std::any_of(input.scene.warp.begin(), input.scene.warp.end(),
-                                    [](const Warp& warp) { return !std::get<LamarLens>(warp).homogeneous; });
+    const bool affine = std::any_of(input.scene.warp.begin(), input.scene.warp.end(), [](const Warp& warp) {
+      const auto* lens = std::get_if<LamarLens>(&warp);
+      return lens != nullptr && !lens->homogeneous;
+    });
     if (input.scene.render.pipeline == LensPipeline::tessellated && !affine) {
       input.scene.overlay = {}; // lines would count as differences
       const PictureResult corners = draw_lens(input);

@@ -1,0 +1,36 @@
+// The GLSL of a list of warps: each warp's own functions, its numbers as a uniform, and their chain.
+#pragma once
+
+#include "core/embedded.h"
+#include "gl/program.h"
+#include "warp/warp.h"
+
+#include <vector>
+
+namespace slicelens {
+
+/// The file "generated/warps.glsl" that shaders/gpu/warp.glsl includes: chain_texture_from_object and
+/// chain_jacobian in box space, u = u_1 ∘ … ∘ u_n, and chain_magnification where all warps are LaMar's lens.
+EmbeddedFile warp_chain(const std::vector<WarpMap>& maps);
+
+/// Sets the uniforms that warp_chain declares, and `box_size`. The program must be in use.
+void set_warp_maps(const gl::Functions& gl, const gl::Program& program, const std::vector<WarpMap>& maps,
+                   const BoxSpace& space);
+
+/// Sets the fields of the uniform struct `name`.
+template <class Map>
+void set_struct(const gl::Functions& gl, const gl::Program& program, const std::string& name,
+                const Map& map) {
+  visit_fields(map, [&](const char* field, const auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    const std::string full = name + "." + field;
+    if constexpr (std::is_same_v<Value, glm::dvec3>)
+      set_uniform(gl, program, full.c_str(), glm::vec3(value));
+    else if constexpr (std::is_same_v<Value, double>)
+      set_uniform(gl, program, full.c_str(), static_cast<float>(value));
+    else
+      set_uniform(gl, program, full.c_str(), static_cast<int>(value));
+  });
+}
+
+} // namespace slicelens
