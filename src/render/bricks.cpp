@@ -46,14 +46,16 @@ Brick brick_of(const PreparedScene& prepared, const Part& part, std::size_t leve
   const double edge = std::ldexp(1, static_cast<int>(level)); // voxels of level 0 in one of this level
   // Steps of the gradient follow the level blended to, at most the next coarser one: two voxels of this.
   const double step = render.shading == Shading::none ? 0 : level + 1 < render.levels ? 2 : 1;
-  const double below = render.gradient == Gradient::central ? step : 0;
+  const double filter = render.filter == Filter::cubic ? 1 : 0; // beyond the voxels of linear interpolation
+  const double below = (render.gradient == Gradient::central ? step : 0) + filter;
+  const double above = step + filter;
   Brick brick;
   brick.level = level;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const int a = static_cast<int>(axis);
     const double last_voxel = static_cast<double>(dims[axis] - 1);
     const double first = std::clamp(std::floor(part.low[a] / edge - 0.5 - below), 0.0, last_voxel);
-    const double last = std::clamp(std::ceil(part.high[a] / edge - 0.5 + step), first, last_voxel);
+    const double last = std::clamp(std::ceil(part.high[a] / edge - 0.5 + above), first, last_voxel);
     brick.first[axis] = static_cast<std::size_t>(first);
     brick.size[axis] = static_cast<std::size_t>(last - first) + 1;
     const double size = static_cast<double>(brick.size[axis]);

@@ -34,7 +34,7 @@ struct BrickPlan {
 /// Tiles meet at voxel centres, texture coordinate (b + ½)/N with b = ⌊N·i/n⌋, so linear interpolation on
 /// either side needs voxel b and none beyond: neighbours overlap by that one voxel. Shading reaches farther:
 /// by the gradient's step on both sides (central differences) or on the upper one (forward), one voxel
-/// without levels.
+/// without levels; the cubic filter by one voxel on both sides.
 ///
 /// Of the coarsest level every tile holds its whole part; of a finer one only the box that lenses show
 /// magnified enough to be seen at it (level_of in shaders/lib/levels.glsl).

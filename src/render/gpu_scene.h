@@ -2,13 +2,11 @@
 #pragma once
 
 #include "gl/texture.h"
+#include "render/axis_textures.h"
 #include "render/bricks.h"
 #include "render/prepare.h"
 
 namespace slicelens {
-
-/// Cohen's tables, one for each axis; empty but under pipeline `axis`.
-using AxisTextures = std::array<gl::Texture, 3>;
 
 /// Textures of a prepared scene, shared by the GPU pipelines.
 struct GpuScene {
@@ -24,17 +22,16 @@ struct GpuScene {
   BrickPlan plan;              ///< where the volume is bricked (render.tiles, render.levels)
   std::vector<gl::Texture> bricks; ///< of plan.bricks; `volume` is empty then
   std::size_t transfer_texels = 0;
-  AxisTextures axis;
+  AxisTextures axis; ///< empty but under pipeline `axis`
 };
 
 /// The texture that render.volume_texture `auto` stands for: r16 for integers of 8 and 16 bits, which it
 /// holds exactly, else r32f. Not r8: software drivers filter 8-bit textures to 8 bits (docs/accuracy.md).
 VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type);
 
-/// Cohen's tables as textures, or rewritten where `textures` has them in that size already: all that changes
-/// with an effect or with the view (Cohen, Brodlie and Phillips 2008 §4). Returns the bytes uploaded.
-std::size_t upload_axis_tables(const gl::Functions& gl, const PreparedScene& prepared,
-                               AxisTextures& textures);
+/// How the driver filters the texture of a volume for render.filter: linearly as well where shaders build the
+/// cubic B-spline from linear fetches (shaders/gpu/volume.glsl).
+GLenum texture_filter(Filter filter);
 
 /// Uploads both. Integers are stored so that they come back exactly where the format has the bits; otherwise
 /// values are scaled to the format over the volume's range. Non-finite voxels become the smallest finite

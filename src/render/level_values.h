@@ -3,8 +3,8 @@
 
 #include "render/bricks.h"
 #include "render/prepare.h"
+#include "render/voxel_filter.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace slicelens {
@@ -18,26 +18,17 @@ inline double level_at(const PreparedScene& prepared, const glm::dvec3& p) {
   return level_of(q, static_cast<double>(prepared.pyramid.size()), prepared.log_zoom);
 }
 
-/// The value of level k ≥ 1 at texture coordinate p: trilinear (or nearest) between the level's voxel centres
-/// (i+½)·2ᵏ/N, clamped to the edge.
+/// The value of level k ≥ 1 at texture coordinate p, by the scene's filter: the level's voxel centres are at
+/// (i+½)·2ᵏ/N.
 inline double level_value(const PreparedScene& prepared, std::size_t k, const glm::dvec3& p) {
   const Volume& level = prepared.pyramid[k - 1];
   const auto& n = prepared.volume.dims;
-  const glm::dvec3 last = glm::dvec3(level.dims[0], level.dims[1], level.dims[2]) - 1.0;
   const glm::dvec3 x = p * glm::dvec3(n[0], n[1], n[2]) / std::ldexp(1, static_cast<int>(k));
-  const auto at = [&](const glm::dvec3& i) {
-    return value_at(level, static_cast<std::size_t>(i.x), static_cast<std::size_t>(i.y),
-                    static_cast<std::size_t>(i.z));
-  };
-  if (prepared.scene.render.filter == Filter::nearest)
-    return at(glm::clamp(glm::floor(x), glm::dvec3(0), last));
-  const glm::dvec3 position = glm::clamp(x - 0.5, glm::dvec3(0), last);
-  const glm::dvec3 a = glm::floor(position);
-  const glm::dvec3 b = glm::min(a + 1.0, last);
-  const glm::dvec3 f = position - a;
-  const auto along_x = [&](double j, double l) { return glm::mix(at({a.x, j, l}), at({b.x, j, l}), f.x); };
-  return glm::mix(glm::mix(along_x(a.y, a.z), along_x(b.y, a.z), f.y),
-                  glm::mix(along_x(a.y, b.z), along_x(b.y, b.z), f.y), f.z);
+  return filtered(prepared.scene.render.filter, glm::ivec3(level.dims[0], level.dims[1], level.dims[2]), x,
+                  [&](int i, int j, int l) {
+                    return value_at(level, static_cast<std::size_t>(i), static_cast<std::size_t>(j),
+                                    static_cast<std::size_t>(l));
+                  });
 }
 
 /// Linear between the two levels beside `level`; `full_value(p)` gives level 0.

@@ -1,5 +1,7 @@
 #include "render/pre_classification.h"
 
+#include "render/gpu_scene.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -115,7 +117,7 @@ gl::Texture upload_classified(const gl::Functions& gl, const PreparedScene& prep
   const auto& dims = prepared.volume.dims;
   gl::TextureSpec spec;
   spec.format = GL_RGBA8;
-  spec.filter = prepared.scene.render.filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
+  spec.filter = texture_filter(prepared.scene.render.filter);
   gl::Texture texture;
   with_classifier(prepared, [&](const auto& classifier) {
     texture = gl::make_texture_3d(

@@ -3,6 +3,7 @@
 #include "render/level_values.h"
 #include "render/pre_classification.h"
 #include "render/ray_frame.h"
+#include "render/voxel_filter.h"
 
 #include <tbb/parallel_for.h>
 
@@ -39,7 +40,7 @@ struct Tracer : SharedFunctions {
   ivec3 dims;
   vec3 voxel;
   dmat3 world_from_gradient;
-  bool nearest;
+  Filter filter;
   real level = 0; ///< that the sample reads, with render.levels
   Correction correction;
   real ratio;
@@ -49,7 +50,7 @@ struct Tracer : SharedFunctions {
         classified(classified_voxels), dims(scene.volume.dims[0], scene.volume.dims[1], scene.volume.dims[2]),
         voxel(1.0 / vec3(dims)),
         world_from_gradient(glm::transpose(glm::inverse(dmat3(scene.box.world_from_texture)))),
-        nearest(scene.scene.render.filter == Filter::nearest), correction(correction_of(scene)),
+        filter(scene.scene.render.filter), correction(correction_of(scene)),
         ratio(scene.scene.render.opacity_correction == OpacityCorrection::none ? 1
                                                                                : axis_distance_ratio(scene)) {
   }
@@ -67,21 +68,10 @@ struct Tracer : SharedFunctions {
     return value;
   }
 
-  /// What `voxel_at` gives for voxels (i, j, k), at p: the nearest one, or trilinear between voxel centres
-  /// (i+½)/N, clamped to the edge.
+  /// What `voxel_at` gives for voxels (i, j, k), at p.
   template <class VoxelAt>
   auto interpolated(vec3 p, const VoxelAt& voxel_at) const {
-    const vec3 position = clamp(p * vec3(dims) - 0.5, vec3(0), vec3(dims) - 1.0);
-    if (nearest) {
-      const ivec3 n = min(ivec3(floor(clamp(p, vec3(0), vec3(1)) * vec3(dims))), dims - 1);
-      return voxel_at(n.x, n.y, n.z);
-    }
-    const ivec3 a = ivec3(floor(position));
-    const ivec3 b = min(a + 1, dims - 1);
-    const vec3 f = position - vec3(a);
-    const auto along_x = [&](int j, int k) { return mix(voxel_at(a.x, j, k), voxel_at(b.x, j, k), f.x); };
-    return mix(mix(along_x(a.y, a.z), along_x(b.y, a.z), f.y), mix(along_x(a.y, b.z), along_x(b.y, b.z), f.y),
-               f.z);
+    return filtered(filter, dims, p * vec3(dims), voxel_at);
   }
 
   /// The data value at p, of the sample's level.

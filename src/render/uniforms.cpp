@@ -10,6 +10,8 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
   std::vector<std::string> macros;
   if (render.filter == Filter::linear_exact)
     macros.emplace_back("FILTER_LINEAR_EXACT");
+  if (render.filter == Filter::cubic)
+    macros.emplace_back("FILTER_CUBIC");
   if (render.classification == Classification::pre)
     macros.emplace_back("CLASSIFICATION_PRE");
   if (is_bricked(render))

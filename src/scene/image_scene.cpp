@@ -112,6 +112,9 @@ bool draws_triangles(LensPipeline pipeline) {
 }
 
 void validate(const ImageScene& scene) {
+  if (scene.render.filter == Filter::cubic) {
+    throw UsageError("render.filter 'cubic' is for volumes; a picture takes nearest, linear or linear-exact");
+  }
   if (scene.render.pipeline == LensPipeline::fixed_function) {
     const auto refuse = [](const std::string& problem, const std::string& key, const std::string& value) {
       throw UsageError("pipeline 'fixed-function' " + problem + "; set " + key + " to " + value);

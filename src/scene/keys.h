@@ -73,8 +73,10 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key("classification", s.classification,
             "post (interpolate values, then classify) or pre (classify voxels into 8-bit associated colours, "
             "then interpolate those)");
-  visit.key("filter", s.filter,
-            "nearest, linear (the driver's) or linear-exact (float weights in the shader)");
+  visit.key(
+      "filter", s.filter,
+      "nearest, linear (the driver's), linear-exact (float weights in the shader) or cubic (B-spline, which "
+      "smooths; eight linear fetches)");
   visit.key("target", s.target, "what slices blend into: rgba8, rgba16f or rgba32f");
   visit.key("volume_texture", s.volume_texture, "texture the voxels are held in: auto, r8, r16 or r32f");
   visit.key("transfer_texture", s.transfer_texture,

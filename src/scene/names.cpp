@@ -57,8 +57,10 @@ const std::vector<EnumName<Classification>>& names_of(Classification) {
 }
 
 const std::vector<EnumName<Filter>>& names_of(Filter) {
-  static const std::vector<EnumName<Filter>> names = {
-      {Filter::nearest, "nearest"}, {Filter::linear, "linear"}, {Filter::linear_exact, "linear-exact"}};
+  static const std::vector<EnumName<Filter>> names = {{Filter::nearest, "nearest"},
+                                                      {Filter::linear, "linear"},
+                                                      {Filter::linear_exact, "linear-exact"},
+                                                      {Filter::cubic, "cubic"}};
   return names;
 }
 

@@ -105,8 +105,10 @@ void validate_fixed_function(const RenderSettings& render) {
     refuse("has colours in its texture and nothing to shade with", "render.shading", "none");
   if (render.target != Target::rgba8)
     refuse("blends into the papers' 8 bits", "render.target", "rgba8");
-  if (render.filter == Filter::linear_exact)
-    refuse("has no filter 'linear-exact', which is a shader's", "render.filter", "linear or nearest");
+  if (render.filter == Filter::linear_exact || render.filter == Filter::cubic) {
+    refuse("has no filter '" + word(render.filter) + "', which is a shader's", "render.filter",
+           "linear or nearest");
+  }
 }
 
 /// Where Cohen's effects can be drawn.

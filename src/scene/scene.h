@@ -59,7 +59,7 @@ enum class Shading { none, diffuse };
 enum class Gradient { forward, central };
 /// `pre`: voxels become colours of 8 bits before they are interpolated.
 enum class Classification { post, pre };
-enum class Filter { nearest, linear, linear_exact };
+enum class Filter { nearest, linear, linear_exact, cubic };
 enum class Target { rgba8, rgba16f, rgba32f };
 enum class VolumeTexture { automatic, r8, r16, r32f };
 enum class TransferTexture { rgba8, rgba32f };

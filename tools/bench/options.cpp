@@ -39,6 +39,7 @@ std::vector<Variant> variants() {
        }},
       {"filter nearest", [](S& s) { s.render.filter = Filter::nearest; }},
       {"filter linear-exact", [](S& s) { s.render.filter = Filter::linear_exact; }},
+      {"filter cubic", [](S& s) { s.render.filter = Filter::cubic; }},
       {"diffuse, forward gradient", [=](S& s) { shade(s, Gradient::forward); }},
       {"diffuse, central gradient", [=](S& s) { shade(s, Gradient::central); }},
       {"spacing 0.5, corrected per frame", [](S& s) { s.render.spacing = 0.5; }},
