@@ -73,7 +73,7 @@ TEST_CASE("the version and the lists") {
   CHECK_FALSE(done(place, {"list", "warps"}).out.empty());
   const std::string phantoms = done(place, {"list", "phantoms"}).out;
   for (const char* name : {"box", "ball", "blob", "ramp", "slabs", "checkerboard", "brick", "marschner-lobb",
-                           "engine", "head", "head-mr"})
+                           "engine", "head", "head-mr", "head-arteries"})
     CHECK_THAT(phantoms, Contains(name));
 }
 
