@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace slicelens {
 
@@ -90,9 +91,9 @@ void check(const VoxelMask& mask) {
                      "; every size must be at least 1 and their product must fit");
 }
 
-} // namespace
-
-Components connected_components(const VoxelMask& mask, Connectivity connectivity) {
+/// Labels all runs, rows in memory order; `see(number of the row's first voxel, row)` gets each row once.
+template <class See>
+Labels labels_of(const VoxelMask& mask, Connectivity connectivity, const See& see) {
   check(mask);
   const auto [nx, ny, nz] = mask.dims;
   const bool corners = connectivity == Connectivity::corners;
@@ -103,7 +104,9 @@ Components connected_components(const VoxelMask& mask, Connectivity connectivity
   for (std::size_t k = 0; k < nz; ++k) {
     std::swap(before, plane);
     for (std::size_t j = 0; j < ny; ++j) {
-      find_runs(mask.voxels.data() + (k * ny + j) * nx, nx, labels, plane[j]);
+      const std::size_t start = (k * ny + j) * nx;
+      find_runs(mask.voxels.data() + start, nx, labels, plane[j]);
+      see(start, plane[j]);
       if (j > 0)
         join_rows(plane[j - 1], plane[j], reach, labels);
       if (k == 0)
@@ -115,12 +118,42 @@ Components connected_components(const VoxelMask& mask, Connectivity connectivity
         join_rows(before[j + 1], plane[j], reach, labels);
     }
   }
+  return labels;
+}
+
+} // namespace
+
+Components connected_components(const VoxelMask& mask, Connectivity connectivity) {
+  Labels labels = labels_of(mask, connectivity, [](std::size_t, const Row&) {});
   Components result;
   for (std::size_t label = 0; label < labels.parent.size(); ++label) {
     if (labels.parent[label] == label)
       result.sizes.push_back(labels.size[label]);
   }
   std::sort(result.sizes.begin(), result.sizes.end(), std::greater<>());
+  return result;
+}
+
+VoxelMask largest_component(const VoxelMask& mask, Connectivity connectivity) {
+  std::vector<std::pair<std::size_t, Run>> runs; // with the number of their row's first voxel
+  Labels labels = labels_of(mask, connectivity, [&](std::size_t start, const Row& row) {
+    for (const Run& run : row)
+      runs.push_back({start, run});
+  });
+  VoxelMask result{mask.dims, std::vector<std::uint8_t>(mask.voxels.size(), 0)};
+  if (runs.empty())
+    return result;
+  // Labels are given in memory order, so the first of the largest is the first whose set is so large.
+  std::size_t largest = labels.root(0);
+  for (std::size_t label = 0; label < labels.parent.size(); ++label) {
+    if (labels.size[labels.root(label)] > labels.size[largest])
+      largest = labels.root(label);
+  }
+  for (const auto& [start, run] : runs) {
+    if (labels.root(run.label) == largest)
+      std::fill_n(result.voxels.begin() + static_cast<std::ptrdiff_t>(start + run.first),
+                  run.last - run.first, std::uint8_t{1});
+  }
   return result;
 }
 

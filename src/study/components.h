@@ -30,6 +30,10 @@ struct Components {
 /// UsageError when a size is 0 or `voxels` does not fit `dims`, LimitError when their product overflows.
 Components connected_components(const VoxelMask& mask, Connectivity connectivity = Connectivity::corners);
 
+/// The largest component alone (of equally large ones the first in memory); empty for an empty mask. Throws
+/// as connected_components does.
+VoxelMask largest_component(const VoxelMask& mask, Connectivity connectivity = Connectivity::corners);
+
 /// Components of at least `smallest` voxels beside the tiny ones below that.
 struct ComponentCount {
   std::size_t large = 0;

@@ -175,6 +175,21 @@ TEST_CASE("components agree with flooding on random masks") {
   }
 }
 
+TEST_CASE("the largest component alone") {
+  VoxelMask mask = filled(8, 8, 8, 0);
+  set_cube(mask, 1, 4);
+  set_cube(mask, 4, 6);
+  VoxelMask cube = filled(8, 8, 8, 0);
+  set_cube(cube, 1, 4);
+  CHECK(largest_component(mask, Connectivity::faces).voxels == cube.voxels);
+  CHECK(largest_component(mask, Connectivity::corners).voxels == mask.voxels);
+  VoxelMask equal = filled(5, 1, 1, 1);
+  equal.voxels[2] = 0;
+  CHECK(largest_component(equal).voxels == std::vector<std::uint8_t>{1, 1, 0, 0, 0});
+  CHECK(largest_component(filled(2, 2, 2, 0)).voxels == std::vector<std::uint8_t>(8, 0));
+  CHECK(largest_component(filled(2, 2, 2, 9)).voxels == std::vector<std::uint8_t>(8, 1));
+}
+
 TEST_CASE("tiny components are counted apart") {
   const ComponentCount count = count_components({{100, 8, 7, 7, 1}}, 8);
   CHECK(count.large == 2);
