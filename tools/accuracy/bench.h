@@ -84,5 +84,6 @@ void parity_section(const Bench& bench);
 void perspective_section(const Bench& bench);
 void precision_section(const Bench& bench);
 void opacity_section(const Bench& bench);
+void axis_section(const Bench& bench);
 
 } // namespace slicelens::accuracy

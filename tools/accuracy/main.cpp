@@ -24,7 +24,8 @@ const std::vector<Section>& sections() {
                                             {"parity", parity_section},
                                             {"perspective", perspective_section},
                                             {"precision", precision_section},
-                                            {"opacity", opacity_section}};
+                                            {"opacity", opacity_section},
+                                            {"axis", axis_section}};
   return list;
 }
 
@@ -67,10 +68,10 @@ int main(int argc, char** argv) {
   std::vector<std::string> wanted;
   app.add_option("--volumes", volumes,
                  "folder with real volumes (ct_chest_large/series, cthead_png16/slices, "
-                 "engine/engine.vti, bonsai/bonsai.nii.gz); those present are used")
+                 "engine/engine.vti, bonsai/bonsai.nii.gz, aneurism/aneurism.vti); those present are used")
       ->type_name("DIR");
   app.add_option("sections", wanted, "which; all by default")
-      ->check(CLI::IsMember({"closed-forms", "parity", "perspective", "precision", "opacity"}));
+      ->check(CLI::IsMember({"closed-forms", "parity", "perspective", "precision", "opacity", "axis"}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
