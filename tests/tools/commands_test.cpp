@@ -63,9 +63,9 @@ TEST_CASE("the version and the lists") {
   CHECK(done(place, {"--version"}).out == std::string("slicelens ") + SLICELENS_VERSION + "\n");
   CHECK_THAT(done(place, {"list", "contexts"}).out,
              Contains("osmesa") && Contains("egl") && Contains("window"));
-  CHECK_THAT(done(place, {"list", "pipelines"}).out, Contains("slices") && Contains("tessellated") &&
-                                                         Contains("fragment") && Contains("fixed-function") &&
-                                                         Contains("rays") && Contains("reference"));
+  CHECK_THAT(done(place, {"list", "pipelines"}).out,
+             Contains("slices") && Contains("tessellated") && Contains("axis") && Contains("fragment") &&
+                 Contains("fixed-function") && Contains("rays") && Contains("reference"));
   CHECK_THAT(done(place, {"list", "presets"}).out,
              Contains("CT-Bone") && Contains("MR-Angio") && Contains("fog"));
   CHECK_THAT(done(place, {"list", "keys"}).out, Contains("render.spacing") && Contains("transfer.points"));
@@ -228,6 +228,22 @@ TEST_CASE("a gallery of a scene and of volumes holds its pictures") {
   }
   CHECK(pictures ==
         3 * (1 + 5 + 1)); // slices, rays and their difference: two scenes, five views of the volume
+}
+
+TEST_CASE("a gallery compares tables with the exact maps and with rays") {
+  const Workplace place;
+  put(place / "lens.json", R"({"volume":{"phantom":"blob","size":[16,16,16]},"render":{"size":[24,20]},
+                               "warp":{"kind":"volume-lens"}})");
+  put(place / "effect.json",
+      R"({"volume":{"phantom":"blob","size":[16,16,16]},"render":{"size":[24,20],"pipeline":"rays"},
+      "attenuation":{"function":"distance","focus":[[0.4,0.6],[0.4,0.6],[0.4,0.6]]}})");
+  REQUIRE(place.run({"gallery", "lens.json", "effect.json", "-o", "page"}).status == 0);
+  const std::string page = contents(place / "page/index.html");
+  CHECK_THAT(page, Contains("axis against fragment") && Contains("axis against rays"));
+  for (const char* scene : {"lens", "effect"}) {
+    for (const char* picture : {"slices", "fragment", "difference", "rays"})
+      CHECK(fs::exists(place / ("page/" + std::string(scene) + "_" + picture + ".png")));
+  }
 }
 
 TEST_CASE("render --verbose says where the time went, on stderr") {
