@@ -93,6 +93,85 @@ TEST_CASE("wrong scenes end with 2 and name file, key and value") {
   CHECK(place.entries() == Words{"comma.json", "empty.json", "key.json", "list.json", "s.json"});
 }
 
+TEST_CASE("Cohen's warps and effects: what cannot be drawn ends with 2 and says why") {
+  const Workplace place;
+  put(place / "s.json", small_scene);
+  const auto set = [&](const Words& changes) {
+    Words call = {"render", "s.json"};
+    for (const std::string& change : changes)
+      call.insert(call.end(), {"--set", change});
+    return call;
+  };
+  const auto refused = [&](const Words& changes, const Words& named) {
+    check_refused(place, set(changes), 2, named);
+  };
+  const std::string region = R"([[0.3,0.7],[0.3,0.7],[0.3,0.7]])";
+  const auto bifocal = [](const std::string& key, const std::string& x) {
+    return R"(warp={"kind":"bifocal",")" + key + R"(":[)" + x + R"(,[0.4,0.6],[0.4,0.6]]})";
+  };
+  const auto lens = [](const std::string& keys) { return R"(warp={"kind":"volume-lens",)" + keys + "}"; };
+  const Words highlight = {"highlight.function=distance", "highlight.focus=" + region};
+  const auto with = [](Words changes, const Words& more) {
+    changes.insert(changes.end(), more.begin(), more.end());
+    return changes;
+  };
+  const std::string fisheye = R"({"kind":"fisheye"})";
+  const std::string box_lens = R"({"kind":"volume-lens"})";
+
+  // Regions.
+  refused({bifocal("focus", "[-0.1,0.5]")}, {"bifocal", "focus", "axis x", "-0.1"});
+  refused({bifocal("shown", "[0.5,1.2]")}, {"bifocal", "shown", "1.2"});
+  refused({bifocal("shown", "[0.5,0.5]")}, {"bifocal", "shown", "empty"});
+  refused({bifocal("focus", "[0.6,0.4]")}, {"bifocal", "focus", "reversed"});
+  refused({bifocal("focus", "[0,0.4]")}, {"bifocal", "focus", "touch no face"});
+  refused({bifocal("focus", "[0.2,1]")}, {"bifocal", "focus", "touch no face"});
+  refused({bifocal("focus", "[\"nan\",1]")}, {"focus"});
+  refused({"highlight.function=focus", "highlight.focus=[[0.3,0.7],[0.7,0.3],[0.3,0.7]]"},
+          {"highlight.focus", "axis y", "reversed"});
+  refused({"attenuation.function=distance", "attenuation.focus=[[0.3,0.7],[0.3,0.7],[0,0.7]]"},
+          {"attenuation.focus", "axis z", "touch no face"});
+  // Lenses.
+  refused({R"(warp={"kind":"fisheye","center":[0,0.5,0.5]})"}, {"fisheye", "center"});
+  refused({R"(warp={"kind":"fisheye","distortion":-1})"}, {"warp.distortion", "-1"});
+  refused({lens(R"("magnification":0)")}, {"magnification", "0"});
+  refused({lens(R"("magnification":-2)")}, {"magnification", "-2"});
+  refused({lens(R"("magnification":0.5)")}, {"volume-lens", "magnification", "folds", "0.75"});
+  refused({lens(R"("inner":0.3,"outer":0.2)")}, {"volume-lens", "inner", "outer"});
+  refused({lens(R"("center":[0.1,0.5,0.5])")}, {"volume-lens", "center", "axis x"});
+  refused({lens(R"("outer":0.6)")}, {"volume-lens", "outer", "0.6"});
+  refused({R"(warp={"kind":"connected-lens","magnification":0.5})"}, {"connected-lens", "folds"});
+  // Powers.
+  refused(with(highlight, {"highlight.power=-1"}), {"highlight.power", "-1"});
+  refused({"attenuation.power=-0.5"}, {"attenuation.power", "-0.5"});
+  refused({"attenuation.power=nan"}, {"attenuation.power"});
+  // Tables.
+  refused({"render.axis_texels=15"}, {"render.axis_texels", "16", "4096", "15"});
+  refused({"render.axis_texels=4097"}, {"render.axis_texels", "4097"});
+  refused({R"(warp={"kind":"lamar"})", "render.pipeline=axis"},
+          {"'axis'", "separable", "'lamar'", "tessellated"});
+  refused({"warp=[" + box_lens + "," + fisheye + "]", "render.pipeline=axis"},
+          {"'axis'", "mask", "'volume-lens'"});
+  refused({"warp=[" + fisheye + R"(,{"kind":"connected-lens"}])", "render.pipeline=axis"},
+          {"'axis'", "mask", "'connected-lens'"});
+  // Effects without a region, or where they cannot be drawn.
+  refused({"highlight.function=distance"}, {"highlight.focus", "region"});
+  refused({"attenuation.function=viewpoint"}, {"attenuation.focus", "region"});
+  refused({"highlight.function=focus", "warp=" + fisheye}, {"highlight.function", "focal point"});
+  refused(with(highlight, {"render.pipeline=slices"}), {"'slices'", "highlight", "axis"});
+  refused(with(highlight, {"render.pipeline=fixed-function"}), {"'fixed-function'", "highlight"});
+  refused({"attenuation.function=distance", "attenuation.focus=" + region, "render.pipeline=slices"},
+          {"'slices'", "attenuation"});
+  refused(with(highlight, {"render.classification=pre"}),
+          {"render.classification", "pre", "highlight", "post"});
+  for (const std::string pipeline : {"slices", "tessellated", "fixed-function"})
+    refused({"warp=" + fisheye, "render.pipeline=" + pipeline}, {"'" + pipeline + "'", "'fisheye'", "axis"});
+  refused({"warp=" + fisheye, "render.levels=2"}, {"render.levels", "'fisheye'"});
+  refused({"warp=" + fisheye, "render.tiles=[2,1,1]"}, {"'axis'", "tiles"});
+  refused({R"(warp={"kind":"fishy"})"}, {"fishy", "fisheye"});
+  refused({R"(warp={"kind":"fisheye","distorsion":2})"}, {"distorsion", "distortion"});
+  CHECK(place.entries() == Words{"s.json"});
+}
+
 TEST_CASE("files that are missing or damaged end with 1 and are named") {
   const Workplace place;
   check_refused(place, {"render", "nowhere.json"}, 1, {"nowhere.json"});
