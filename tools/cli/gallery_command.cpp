@@ -11,6 +11,7 @@
 #include "scene/load.h"
 #include "scene/names.h"
 #include "scene/scene_json.h"
+#include "study/axis_tables_page.h"
 #include "study/gallery.h"
 
 #include <algorithm>
@@ -158,6 +159,7 @@ private:
           {save(exact.image, scene.name + "_fragment.png"),
            "fragment: the exact maps at each fragment, drawn in " + milliseconds(exact.times.draw)});
       compare(entry, "axis against fragment", slices.image, exact.image, background);
+      plot_tables(entry, scene.input.scene, progress);
     }
     const bool rays_can = scene.input.scene.overlay.stack == 0 && slicing != Pipeline::fixed_function &&
                           scene.input.scene.render.tiles == std::array<std::size_t, 3>{1, 1, 1};
@@ -216,6 +218,27 @@ private:
     return render_picture(prepared, &*context_.context);
   }
 
+  /// The tables as curves and texels, as PNG on the page and as SVG beside it, where there is a gnuplot.
+  void plot_tables(GalleryEntry& entry, const Scene& scene, const Progress& progress) {
+    if (!plots_)
+      return;
+    const auto separable = [](const Warp& warp) { return is_separable(warp); };
+    if (!std::all_of(scene.warp.begin(), scene.warp.end(), separable))
+      return;
+    try {
+      PreparedScene prepared = prepare(scene, std::move(volume_), transfer_of(scene, volume_));
+      const PlotPage page = axis_tables_page(entry.title, prepared);
+      volume_ = std::move(prepared.volume);
+      const std::string name = entry.name + "_tables";
+      write_text_atomically(folder_ / (name + ".svg"), draw_plot(page, PlotFormat::svg));
+      write_text_atomically(folder_ / (name + ".png"), draw_plot(page, PlotFormat::png));
+      entry.pictures.push_back({name + ".png", "the three tables (" + name + ".svg)"});
+    } catch (const FileError& problem) {
+      plots_ = false;
+      report_warning(progress, std::string("the tables are not plotted: ") + problem.what());
+    }
+  }
+
   /// Metrics; and a heat map of an entry's first comparison.
   void compare(GalleryEntry& entry, const std::string& what, const Image& a, const Image& b,
                const glm::dvec3& background) {
@@ -257,6 +280,7 @@ private:
     return name;
   }
 
+  bool plots_ = true;
   fs::path folder_;
   OpenContext context_;
   Volume volume_;
