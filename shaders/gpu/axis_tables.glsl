@@ -12,9 +12,12 @@ struct AxisTexels {
   vec4 z;
 };
 
+// The tables have no mip levels. Saying so spares a software rasteriser the choice of one: a tenth of the time.
+vec4 axis_texel(sampler1D table, float x) { return textureLod(table, x, 0.0); }
+
 // At the coordinate where a fragment is shown.
 AxisTexels fetch_axis_tables(vec3 p) {
-  return AxisTexels(texture(axis_table_x, p.x), texture(axis_table_y, p.y), texture(axis_table_z, p.z));
+  return AxisTexels(axis_texel(axis_table_x, p.x), axis_texel(axis_table_y, p.y), axis_texel(axis_table_z, p.z));
 }
 
 #ifdef AXIS_WEIGHTS
@@ -38,7 +41,7 @@ vec2 axis_effects(AxisTexels t) { return t.x.ba * t.y.ba * t.z.ba; }
 vec2 axis_slope(sampler1D table, float x) {
   float count = float(textureSize(table, 0));
   float half_texel = 0.5 / count;
-  return (texture(table, x + half_texel).rg - texture(table, x - half_texel).rg) * count;
+  return (axis_texel(table, x + half_texel).rg - axis_texel(table, x - half_texel).rg) * count;
 }
 
 // The gradient of the displayed volume v∘u from that of the data: Jᵀ∇v, both by texture coordinates.

@@ -102,12 +102,8 @@ void prepare_effects(PreparedScene& prepared) {
   prepared.effects = focus_effects(scene.highlight, scene.attenuation, focus_region(scene.warp));
   prepared.effects.gaze = viewing_gaze(prepared);
   prepared.tables = {};
-  if (scene.render.pipeline != Pipeline::axis)
-    return;
-  std::array<std::size_t, 3> counts = prepared.volume.dims;
-  if (scene.render.axis_texels)
-    counts.fill(*scene.render.axis_texels);
-  prepared.tables = make_axis_tables(scene.warp, prepared.effects, counts);
+  if (scene.render.pipeline == Pipeline::axis)
+    prepared.tables = axis_tables_of(prepared);
 }
 
 /// The levels above the first. They depend on the data alone, so those there are stay.
@@ -143,6 +139,14 @@ void prepare_again(PreparedScene& prepared) {
   if (is_bricked(scene.render))
     (void)plan_bricks(prepared); // refuses tiles and levels that the volume has no voxels for
   prepare_pyramid(prepared);
+}
+
+AxisTables axis_tables_of(const PreparedScene& prepared) {
+  const Scene& scene = prepared.scene;
+  std::array<std::size_t, 3> counts = prepared.volume.dims;
+  if (scene.render.axis_texels)
+    counts.fill(*scene.render.axis_texels);
+  return make_axis_tables(scene.warp, prepared.effects, counts);
 }
 
 double axis_distance_ratio(const PreparedScene& prepared) {

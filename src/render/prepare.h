@@ -38,6 +38,10 @@ struct PreparedScene {
   glm::dvec3 object_high{1};
 };
 
+/// The tables that pipeline `axis` reads, whatever the scene's pipeline: one texel for each voxel, or
+/// render.axis_texels. Throws as make_axis_tables does.
+AxisTables axis_tables_of(const PreparedScene& prepared);
+
 /// Whether any point of the displayed volume may look elsewhere in the data.
 inline bool is_warped(const PreparedScene& prepared) { return !prepared.maps.empty(); }
 

@@ -2,6 +2,7 @@
 
 #include "image/overlay.h"
 #include "render/overlay_parts.h"
+#include "render/warp_overlay.h"
 #include "slicing/slice_stack.h"
 #include "tess/overlay_lines.h"
 
@@ -65,14 +66,8 @@ std::vector<Polyline> carried_lattice(const PreparedScene& prepared, const LensT
 /// of the picture).
 double magnification_at_pixel(const PreparedScene& prepared, const LensTessellation& lens, double x,
                               double y) {
-  const Ray world = ray_from_pixel(prepared.view, x, y);
-  const glm::dmat4 to_texture = texture_from_world(prepared.box);
-  const glm::dvec3 origin =
-      box_from_texture(prepared.space, glm::dvec3(to_texture * glm::dvec4(world.origin, 1)));
-  const glm::dvec3 direction = box_from_texture(prepared.space, glm::dmat3(to_texture) * world.direction);
-  const double s =
-      glm::dot(lens.map.center - origin, lens.map.forward) / glm::dot(direction, lens.map.forward);
-  const glm::dmat3 j = jacobian(lens.map, origin + s * direction);
+  const glm::dmat3 j =
+      jacobian(lens.map, plane_point_at_pixel(prepared, x, y, lens.map.center, lens.map.forward));
   const glm::dvec3 right = j * lens.map.right;
   const glm::dvec3 up = j * lens.map.up;
   const double data_area = std::abs(glm::dot(glm::cross(right, up), lens.map.forward));
@@ -80,8 +75,10 @@ double magnification_at_pixel(const PreparedScene& prepared, const LensTessellat
 }
 
 std::optional<MagnificationBar> draw_magnification_of(Image& image, const PreparedScene& prepared) {
-  if (!(prepared.scene.overlay.magnification > 0) || prepared.lenses.empty())
+  if (!(prepared.scene.overlay.magnification > 0) || prepared.maps.empty())
     return std::nullopt;
+  if (prepared.lenses.empty())
+    return draw_magnification(image, plane_magnifications(prepared), prepared.scene.overlay.magnification);
   std::vector<double> values;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
@@ -163,6 +160,13 @@ void draw_overlays(Image& image, const PreparedScene& prepared) {
       draw({outline.outer}, outer_color);
       draw({outline.inner}, inner_color);
     }
+  }
+  // Warps without triangles, and the regions of highlight and attenuation.
+  if (overlay.lattice > 0 && prepared.lenses.empty() && !prepared.maps.empty())
+    draw(carried_lattice(prepared, overlay.lattice), lattice_color);
+  if (overlay.outline) {
+    draw(lens_box_outlines(prepared), outer_color);
+    draw(focus_outlines(prepared), inner_color);
   }
   if (bar)
     image = with_magnification_bar(image, *bar);

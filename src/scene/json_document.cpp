@@ -28,6 +28,9 @@ const std::vector<Alternatives>& alternatives() {
 void remove_alternatives(Json& section, const std::string& section_name, const std::string& key) {
   if (!section.is_object())
     return; // nothing set in it yet
+  // A phantom's size goes with it: files know theirs, and a raw file's is set after its name.
+  if (section_name == "volume" && key == "file" && section.contains("phantom"))
+    section.erase("size");
   for (const Alternatives& group : alternatives()) {
     if (section_name != group.section)
       continue;

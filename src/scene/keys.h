@@ -201,7 +201,7 @@ void attenuation_keys(Visitor& visit, Settings& s) {
 template <class Visitor, class Settings>
 void overlay_keys(Visitor& visit, Settings& s) {
   visit.key("wireframe", s.wireframe, "none, segments (of the tessellation) or triangles");
-  visit.key("outline", s.outline, "inner (red) and outer (green) edge of each lens");
+  visit.key("outline", s.outline, "inner (red) and outer (green) edge of each lens or focus region");
   visit.key("lattice", s.lattice,
             "cells along the longer edge of a lattice carried through the lens; 0: none");
   visit.key("magnification", s.magnification, "opacity of false colours of the local magnification",

@@ -1,6 +1,7 @@
 #include "study/gallery.h"
 
 #include <cstdio>
+#include <optional>
 
 namespace slicelens {
 
@@ -50,8 +51,8 @@ std::string article(const GalleryEntry& entry) {
   for (const GalleryPicture& picture : entry.pictures)
     text += figure(picture.file, picture.caption);
   text += "</div>\n<table>\n" + row("data", entry.data);
-  if (entry.metrics)
-    text += row(entry.comparison, metrics_text(*entry.metrics));
+  for (const GalleryComparison& comparison : entry.comparisons)
+    text += row(comparison.what, metrics_text(comparison.metrics));
   text += "</table>\n<details><summary>scene, and the command that renders it</summary>\n<pre>" +
           html_text(entry.command) + "</pre>\n<pre>" + html_text(entry.scene_json) +
           "</pre></details>\n</article>\n";

@@ -3,7 +3,6 @@
 
 #include "study/metrics.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,16 +14,21 @@ struct GalleryPicture {
   std::string caption;
 };
 
+/// What two of the pictures have in common.
+struct GalleryComparison {
+  std::string what; ///< "slices against rays"
+  Metrics metrics;
+};
+
 /// One scene and its pictures.
 struct GalleryEntry {
   std::string title;
   std::string name; ///< short, used in file names and links
   std::vector<GalleryPicture> pictures;
-  std::string data;               ///< what is shown: "256×256×256 int16, phantom"
-  std::string comparison;         ///< what the metrics compare: "slices against rays"
-  std::optional<Metrics> metrics; ///< nothing where there is one picture only
-  std::string command;            ///< that renders the picture again
-  std::string scene_json;         ///< shown folded
+  std::string data;                           ///< what is shown: "256×256×256 int16, phantom"
+  std::vector<GalleryComparison> comparisons; ///< none where there is one picture only
+  std::string command;                        ///< that renders the picture again
+  std::string scene_json;                     ///< shown folded
 };
 
 /// Self-contained HTML beside the pictures, readable without a network. Texts are escaped.

@@ -170,6 +170,15 @@ const std::vector<Recipe>& recipes() {
        glm::dvec3(1),
        256,
        mr_head_rows},
+      {{"head-arteries",
+        "the arteries and the aneurysm of `head` alone, as angiography with subtraction shows them",
+        "blood 200 in 0; shapes as in head",
+        {256, 256, 256},
+        "MR-Angio"},
+       ScalarType::u8,
+       glm::dvec3(1),
+       256,
+       head_artery_rows},
   };
   return list;
 }

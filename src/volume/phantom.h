@@ -28,7 +28,7 @@ const std::vector<PhantomInfo>& phantoms();
 ///
 /// Place in the world: every phantom fills its box at any `size` ≥ 1 per axis, and the box has the same shape
 /// at any size: a cube, but for `engine`, which is half as high as long. The longest edge is 256 mm for
-/// `head` and `head-mr`, and max(size) units otherwise, so cubic sizes have spacing 1 (and `engine` at
+/// the heads, and max(size) units otherwise, so cubic sizes have spacing 1 (and `engine` at
 /// 2n×2n×n); in general spacing = edge/size per axis. The box centre is the world origin; direction is the
 /// identity, which in LPS puts a head's left at +x, its back at +y and its crown at +z.
 ///

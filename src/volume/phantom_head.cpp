@@ -1,4 +1,5 @@
-// `head` and `head-mr`: one anatomy (phantom_head.h), two tables of tissue values.
+// `head` and `head-mr`: one anatomy (phantom_head.h), two tables of tissue values; `head-arteries`: their
+// arteries alone.
 #include "volume/phantom_head.h"
 
 #include "volume/phantom_rows.h"
@@ -145,21 +146,43 @@ double head_at(const dvec3& p, double w, const Tissues& t, const Vessels& vessel
   return v;
 }
 
-} // namespace
-
-PhantomRows head_rows(bool magnetic_resonance) {
+/// Rows of value(position, width of a voxel's surface, arteries near the row).
+template <class Value>
+PhantomRows rows_of_vessels(Value value) {
   const auto tree = std::make_shared<const Vessels>(head::arteries());
-  const Tissues tissues = magnetic_resonance ? kMr : kCt;
-  return [tree, tissues](const PhantomGrid& grid, std::size_t j, std::size_t k, std::span<double> row) {
+  return [tree, value](const PhantomGrid& grid, std::size_t j, std::size_t k, std::span<double> row) {
     const double w = 1.2 * std::max({grid.spacing(0), grid.spacing(1), grid.spacing(2)});
     dvec3 p = (dvec3(0, grid.texture(1, j), grid.texture(2, k)) - 0.5) * grid.edges;
     Vessels vessels;
     select_row(*tree, p.y, p.z, w, vessels);
     for (std::size_t i = 0; i < row.size(); ++i) {
       p.x = (grid.texture(0, i) - 0.5) * grid.edges.x;
-      row[i] = head_at(p, w, tissues, vessels);
+      row[i] = value(p, w, vessels);
     }
   };
+}
+
+/// Blood of `head-arteries`; everything else is 0, as bone and soft tissue are after subtraction.
+constexpr double kSubtractedBlood = 200;
+
+double arteries_at(const dvec3& p, double w, const Vessels& vessels) {
+  if (vessels.empty())
+    return 0;
+  return kSubtractedBlood * inside(std::max(vessel_distance(vessels, p), head::skin(p) + 2.5), w);
+}
+
+} // namespace
+
+PhantomRows head_artery_rows() {
+  return rows_of_vessels(
+      [](const dvec3& p, double w, const Vessels& vessels) { return arteries_at(p, w, vessels); });
+}
+
+PhantomRows head_rows(bool magnetic_resonance) {
+  const Tissues tissues = magnetic_resonance ? kMr : kCt;
+  return rows_of_vessels([tissues](const dvec3& p, double w, const Vessels& vessels) {
+    return head_at(p, w, tissues, vessels);
+  });
 }
 
 } // namespace slicelens

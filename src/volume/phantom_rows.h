@@ -44,5 +44,6 @@ PhantomRows checkerboard_rows();
 PhantomRows brick_rows();
 PhantomRows engine_rows();
 PhantomRows head_rows(bool magnetic_resonance);
+PhantomRows head_artery_rows();
 
 } // namespace slicelens

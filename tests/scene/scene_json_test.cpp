@@ -96,6 +96,12 @@ TEST_CASE("changes by --set reach every key and one alternative removes the othe
   CHECK(scene.volume.file == "x.nrrd");
   CHECK_FALSE(scene.volume.phantom.has_value());
   CHECK(scene.render.size[1] == 9);
+  const Scene file = scene_from_json(R"({"volume":{"phantom":"ball","size":[9,8,7]}})", "s",
+                                     {parse_assignment("volume.file=x")});
+  CHECK_FALSE(file.volume.size.has_value()); // that was the phantom's
+  CHECK(scene_from_json(R"({"volume":{"file":"a.raw","size":[9,8,7]}})", "s",
+                        {parse_assignment("volume.file=b.raw")})
+            .volume.size.has_value());
   CHECK(scene_from_json(R"({"volume":{"file":"a"}})", "s", {parse_assignment("volume.phantom=ball")})
             .volume.phantom == "ball");
   CHECK(scene_from_json("{}", "s", {parse_assignment("volume.file=a")}).volume.file ==

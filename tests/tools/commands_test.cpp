@@ -38,16 +38,18 @@ std::pair<unsigned, unsigned> png_size(const std::string& png) {
 
 TEST_CASE("help of the program and of each command mentions every option") {
   const Workplace place;
-  CHECK_THAT(done(place, {"--help"}).out,
-             Contains("render") && Contains("compare") && Contains("info") && Contains("phantom") &&
-                 Contains("list") && Contains("gallery") && Contains("--version") && Contains("Exit status"));
+  CHECK_THAT(done(place, {"--help"}).out, Contains("render") && Contains("compare") && Contains("info") &&
+                                              Contains("phantom") && Contains("list") &&
+                                              Contains("gallery") && Contains("plot") &&
+                                              Contains("--version") && Contains("Exit status"));
   const std::vector<std::pair<std::string, Words>> options = {
       {"render", {"input", "--output", "--set", "--depth", "--print-scene", "--verbose"}},
       {"compare", {"--output", "--set", "--set-a", "--set-b", "--factor", "--verbose", "psnr_covered"}},
       {"info", {"volume", "--set", "--json", "NRRD", "DICOM"}},
       {"phantom", {"name", "--output", "--size"}},
       {"list", {"contexts", "figures", "keys", "phantoms", "pipelines", "presets", "warps"}},
-      {"gallery", {"inputs", "--output", "--set"}}};
+      {"gallery", {"inputs", "--output", "--set"}},
+      {"plot", {"SCENE", "--output", "--set", "--size", "gnuplot-nox"}}};
   for (const auto& [command, words] : options) {
     const std::string text = done(place, {command, "--help"}).out;
     CAPTURE(command, text);
@@ -61,9 +63,9 @@ TEST_CASE("the version and the lists") {
   CHECK(done(place, {"--version"}).out == std::string("slicelens ") + SLICELENS_VERSION + "\n");
   CHECK_THAT(done(place, {"list", "contexts"}).out,
              Contains("osmesa") && Contains("egl") && Contains("window"));
-  CHECK_THAT(done(place, {"list", "pipelines"}).out, Contains("slices") && Contains("tessellated") &&
-                                                         Contains("fragment") && Contains("fixed-function") &&
-                                                         Contains("rays") && Contains("reference"));
+  CHECK_THAT(done(place, {"list", "pipelines"}).out,
+             Contains("slices") && Contains("tessellated") && Contains("axis") && Contains("fragment") &&
+                 Contains("fixed-function") && Contains("rays") && Contains("reference"));
   CHECK_THAT(done(place, {"list", "presets"}).out,
              Contains("CT-Bone") && Contains("MR-Angio") && Contains("fog"));
   CHECK_THAT(done(place, {"list", "keys"}).out, Contains("render.spacing") && Contains("transfer.points"));
@@ -71,7 +73,7 @@ TEST_CASE("the version and the lists") {
   CHECK_FALSE(done(place, {"list", "warps"}).out.empty());
   const std::string phantoms = done(place, {"list", "phantoms"}).out;
   for (const char* name : {"box", "ball", "blob", "ramp", "slabs", "checkerboard", "brick", "marschner-lobb",
-                           "engine", "head", "head-mr"})
+                           "engine", "head", "head-mr", "head-arteries"})
     CHECK_THAT(phantoms, Contains(name));
 }
 
@@ -228,6 +230,22 @@ TEST_CASE("a gallery of a scene and of volumes holds its pictures") {
         3 * (1 + 5 + 1)); // slices, rays and their difference: two scenes, five views of the volume
 }
 
+TEST_CASE("a gallery compares tables with the exact maps and with rays") {
+  const Workplace place;
+  put(place / "lens.json", R"({"volume":{"phantom":"blob","size":[16,16,16]},"render":{"size":[24,20]},
+                               "warp":{"kind":"volume-lens"}})");
+  put(place / "effect.json",
+      R"({"volume":{"phantom":"blob","size":[16,16,16]},"render":{"size":[24,20],"pipeline":"rays"},
+      "attenuation":{"function":"distance","focus":[[0.4,0.6],[0.4,0.6],[0.4,0.6]]}})");
+  REQUIRE(place.run({"gallery", "lens.json", "effect.json", "-o", "page"}).status == 0);
+  const std::string page = contents(place / "page/index.html");
+  CHECK_THAT(page, Contains("axis against fragment") && Contains("axis against rays"));
+  for (const char* scene : {"lens", "effect"}) {
+    for (const char* picture : {"slices", "fragment", "difference", "rays"})
+      CHECK(fs::exists(place / ("page/" + std::string(scene) + "_" + picture + ".png")));
+  }
+}
+
 TEST_CASE("render --verbose says where the time went, on stderr") {
   const Workplace place;
   put(place / "s.json", small_scene);
@@ -249,4 +267,39 @@ TEST_CASE("fixed function and shaders are compared in one call") {
         "f.png\n");
   CHECK(done(place, {"render", "f.png", "-o", "again.png"}).out == "again.png\n");
   CHECK(contents(place / "again.png").size() > 100);
+}
+
+TEST_CASE("plot draws the tables of a scene, and says so where gnuplot is missing") {
+  const Workplace place;
+  put(place / "s.json", small_scene);
+  const Words call = {
+      "plot", "s.json", "--set", "warp.kind=bifocal", "--set", "attenuation.function=distance"};
+  const auto plot = [&](const Words& more) {
+    Words words = call;
+    words.insert(words.end(), more.begin(), more.end());
+    return place.run(words);
+  };
+  const char* const old = std::getenv("PATH");
+  const std::string path = old != nullptr ? old : "/usr/bin:/bin";
+  ::setenv("PATH", place.folder().c_str(), 1);
+  const Outcome missing = plot({"-o", "t.svg"});
+  ::setenv("PATH", path.c_str(), 1);
+  CHECK(missing.status == 1);
+  CHECK_THAT(missing.err, Contains("gnuplot") && Contains("apt-get install gnuplot-nox"));
+  CHECK(std::count(missing.err.begin(), missing.err.end(), '\n') == 1);
+  CHECK(place.entries() == Words{"s.json"});
+
+  const Outcome outcome = plot({"-o", "t.svg"});
+  if (outcome.status == 1 && outcome.err == missing.err)
+    SLICELENS_SKIP("gnuplot is not installed");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.out == "t.svg\n");
+  const std::string svg = contents(place / "t.svg");
+  CHECK_THAT(svg, Contains(">small<") && Contains(">x'_min<") && Contains(">z + offset<") &&
+                      Contains(">attenuation (B)<") && Contains(">identity<"));
+  REQUIRE(plot({"-o", "t.png", "--size", "640,700"}).status == 0);
+  CHECK(png_size(contents(place / "t.png")) == std::pair(640u, 700u));
+  CHECK_THAT(plot({"-o", "t.png", "--size", "300,300"}).err, Contains("too small for its panels"));
+  CHECK(place.entries() == Words{"s.json", "t.png", "t.svg"});
 }

@@ -46,6 +46,13 @@ TEST_CASE("wrong usage ends with 2 and names what would be right") {
   check_refused(place, {"phantom", "ball", "-o", "b.nrrd", "--size", "-3"}, 2, {"--size", "-3"});
   check_refused(place, {"phantom", "ball", "-o", "b.nrrd", "--size", "0"}, 2, {"--size", "0"});
   check_refused(place, {"phantom", "ball", "-o", "b.nrrd", "--size", "4", "5"}, 2, {"--size"});
+  check_refused(place, {"plot", "s.json"}, 2, {"--output"});
+  check_refused(place, {"plot", "s.json", "-o", "p.pdf"}, 2, {"p.pdf", ".svg or .png"});
+  check_refused(place, {"plot", "s.json", "-o", "p.svg", "--size", "800"}, 2, {"--size"});
+  check_refused(place, {"plot", "s.json", "-o", "p.svg", "--size", "100,800"}, 2, {"--size", "100"});
+  check_refused(place, {"plot", "s.json", "-o", "p.svg"}, 2, {"s.json", "no axis maps", "bifocal"});
+  check_refused(place, {"plot", "s.json", "-o", "p.svg", "--set", "warp.kind=lamar"}, 2,
+                {"s.json", "no axis maps", "'lamar'"});
   check_refused(place, {"list", "colours"}, 2, {"'colours'", "phantoms", "presets"});
   check_refused(place, {"list"}, 2, {"phantoms", "presets"});
   CHECK(place.entries() == Words{"s.json"});

@@ -84,6 +84,7 @@ void parity_section(const Bench& bench);
 void perspective_section(const Bench& bench);
 void precision_section(const Bench& bench);
 void opacity_section(const Bench& bench);
+void vessel_section(const Bench& bench);
 void axis_section(const Bench& bench);
 
 } // namespace slicelens::accuracy

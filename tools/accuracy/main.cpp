@@ -25,7 +25,8 @@ const std::vector<Section>& sections() {
                                             {"perspective", perspective_section},
                                             {"precision", precision_section},
                                             {"opacity", opacity_section},
-                                            {"axis", axis_section}};
+                                            {"axis", axis_section},
+                                            {"vessels", vessel_section}};
   return list;
 }
 
@@ -71,7 +72,8 @@ int main(int argc, char** argv) {
                  "engine/engine.vti, bonsai/bonsai.nii.gz, aneurism/aneurism.vti); those present are used")
       ->type_name("DIR");
   app.add_option("sections", wanted, "which; all by default")
-      ->check(CLI::IsMember({"closed-forms", "parity", "perspective", "precision", "opacity", "axis"}));
+      ->check(CLI::IsMember(
+          {"closed-forms", "parity", "perspective", "precision", "opacity", "axis", "vessels"}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -58,5 +58,6 @@ void run_options(gl::Context& context, const BenchOptions& options);
 void run_phases(const BenchOptions& options);
 void run_lens2d(gl::Context& context, const BenchOptions& options);
 void run_lens3d(gl::Context& context, const BenchOptions& options);
+void run_axis(gl::Context& context, const BenchOptions& options);
 
 } // namespace slicelens::bench

@@ -46,6 +46,8 @@ void run(const BenchOptions& options) {
       run_lens2d(context, options);
     if (wanted("lens3d"))
       run_lens3d(context, options);
+    if (wanted("axis"))
+      run_axis(context, options);
   }
   if (wanted("phases"))
     run_phases(options);
@@ -62,14 +64,14 @@ int main(int argc, char** argv) {
   CLI::App app("Measures the slice pipeline against a bare loop, the cost of each option, and the phases of "
                "a picture. Prints Markdown.",
                "slicelens_bench");
-  app.add_option("sections", options.sections, "fill, options, lens2d, lens3d, phases; none: all")
-      ->check(CLI::IsMember({"fill", "options", "lens2d", "lens3d", "phases"}));
+  app.add_option("sections", options.sections, "fill, options, lens2d, lens3d, axis, phases; none: all")
+      ->check(CLI::IsMember({"fill", "options", "lens2d", "lens3d", "axis", "phases"}));
   app.add_option("--volume", options.volumes, "volume files or folders for `phases`")->type_name("PATH");
   app.add_option("--edge", options.edge, "voxels on an edge of the phantom")->check(CLI::Range(8, 1024));
   app.add_option("--picture", options.picture, "pixels on an edge of the picture")
       ->check(CLI::Range(16, 4096));
   app.add_option("--runs", options.runs, "runs of each side")->check(CLI::Range(3, 1000));
-  app.add_option("--only", options.only, "of `options`: the variants whose name contains this")
+  app.add_option("--only", options.only, "of `options` and `axis`: the variants whose name contains this")
       ->type_name("TEXT");
   app.add_option("--context", options.context, "auto, osmesa, egl or window");
   CLI11_PARSE(app, argc, argv);

@@ -118,11 +118,11 @@ std::vector<GalleryScene> scenes_of(const GalleryOptions& options) {
   return scenes;
 }
 
-/// The scene's own pipeline where that draws slices; else the one that slices its warp.
+/// The scene's own pipeline where that draws slices; else the one that slices its warps and effects.
 Pipeline slicing_pipeline(const Scene& scene) {
   if (draws_slices(scene.render.pipeline))
     return scene.render.pipeline;
-  return scene.warp.empty() ? Pipeline::slices : Pipeline::tessellated;
+  return scene.warp.size() > 1 ? Pipeline::fragment : default_pipeline(scene);
 }
 
 /// Keeps the last volume, which neighbouring scenes often share.
@@ -149,13 +149,22 @@ private:
     entry.pictures.push_back({save(slices.image, scene.name + "_slices.png"),
                               word(slicing) + ": " + std::to_string(slices.slices) + " planes, drawn in " +
                                   milliseconds(slices.times.draw)});
+    const glm::dvec3 background(scene.input.scene.render.background);
+    const bool tables =
+        slicing == Pipeline::axis && (!scene.input.scene.warp.empty() || has_effects(scene.input.scene));
+    if (tables) {
+      const RenderResult exact = draw(scene.input, Pipeline::fragment, progress);
+      entry.pictures.push_back(
+          {save(exact.image, scene.name + "_fragment.png"),
+           "fragment: the exact maps at each fragment, drawn in " + milliseconds(exact.times.draw)});
+      compare(entry, "axis against fragment", slices.image, exact.image, background);
+    }
     const bool rays_can = scene.input.scene.overlay.stack == 0 && slicing != Pipeline::fixed_function &&
                           scene.input.scene.render.tiles == std::array<std::size_t, 3>{1, 1, 1};
     if (rays_can) {
       const RenderResult rays = draw(scene.input, Pipeline::rays, progress);
       entry.pictures.push_back(
           {save(rays.image, scene.name + "_rays.png"), "rays, drawn in " + milliseconds(rays.times.draw)});
-      const glm::dvec3 background(scene.input.scene.render.background);
       compare(entry, word(slicing) + " against rays", slices.image, rays.image, background);
     }
     entry.data = std::to_string(volume_.dims[0]) + "×" + std::to_string(volume_.dims[1]) + "×" +
@@ -207,12 +216,14 @@ private:
     return render_picture(prepared, &*context_.context);
   }
 
+  /// Metrics; and a heat map of an entry's first comparison.
   void compare(GalleryEntry& entry, const std::string& what, const Image& a, const Image& b,
                const glm::dvec3& background) {
-    entry.pictures.push_back({save(heat_map(a, b, 0.02), entry.name + "_difference.png"),
-                              "largest difference at each pixel; the bar shows the scale"});
-    entry.comparison = what;
-    entry.metrics = compare_images(a, b, background, background);
+    if (entry.comparisons.empty()) {
+      entry.pictures.push_back({save(heat_map(a, b, 0.02), entry.name + "_difference.png"),
+                                what + ": largest difference at each pixel; the bar shows the scale"});
+    }
+    entry.comparisons.push_back({what, compare_images(a, b, background, background)});
   }
 
   static std::string milliseconds(double seconds) {
@@ -279,7 +290,8 @@ void run_gallery(const GalleryOptions& options) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string lead = "Volumes are drawn twice: as a stack of blended, view-aligned slices through a 3D "
                            "texture, and by a ray caster that samples the "
-                           "same points. Lenses over pictures are drawn by their tessellation and exactly.";
+                           "same points. Tables of Cohen's effects are compared with the exact maps as well. "
+                           "Lenses over pictures are drawn by their tessellation and exactly.";
   const fs::path page = fs::path(options.folder) / "index.html";
   write_text_atomically(page, gallery_page("Slicelens gallery", lead, entries, gallery.driver(), seconds));
   std::printf("%s\n", page.string().c_str());

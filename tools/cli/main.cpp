@@ -174,6 +174,29 @@ void add_gallery(CLI::App& app, GalleryOptions& options, std::function<void()>& 
   command.callback([&options, &run] { run = [&options] { run_gallery(options); }; });
 }
 
+void add_plot(CLI::App& app, PlotOptions& options, std::function<void()>& run) {
+  CLI::App& command = *app.add_subcommand(
+      "plot", "draw a scene's per-axis tables: offset, mask, attenuation and highlight as curves");
+  command.footer(
+      "Each column is an axis of the volume, each row one channel of its table; the last row shows "
+      "the texels themselves.\nThe plots are drawn by gnuplot (apt-get install gnuplot-nox).\n\n"
+      "  slicelens plot bifocal.json -o tables.svg\n"
+      "  slicelens plot bifocal.json -o tables.png --set volume.size=[64,64,64] --size 1600,1600");
+  command.add_option("input", options.input, "SCENE, or an IMAGE that slicelens wrote")
+      ->required()
+      ->type_name("");
+  command.add_option("-o,--output", options.output, "page to write, .svg or .png")
+      ->required()
+      ->type_name("FILE");
+  add_set(command, options.set);
+  command.add_option("--size", options.size, "width and height of the page in pixels; default 1200,1200")
+      ->expected(2)
+      ->delimiter(',')
+      ->check(CLI::Range(200, 8192))
+      ->type_name("W,H");
+  command.callback([&options, &run] { run = [&options] { run_plot(options); }; });
+}
+
 /// An error's text as one line on stderr.
 int fail(const std::string& message, int status) {
   end_progress();
@@ -233,6 +256,7 @@ int run_program(int argc, char** argv) {
   PhantomOptions phantom;
   ListOptions list;
   GalleryOptions gallery;
+  PlotOptions plot;
   add_render(app, render, run);
   add_lens(app, lens, run);
   add_compare(app, compare, run);
@@ -240,6 +264,7 @@ int run_program(int argc, char** argv) {
   add_phantom(app, phantom, run);
   add_list(app, list, run);
   add_gallery(app, gallery, run);
+  add_plot(app, plot, run);
   try {
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);

@@ -63,6 +63,13 @@ struct GalleryOptions {
   std::vector<std::string> set;
 };
 
+struct PlotOptions {
+  std::string input;
+  std::string output; ///< .svg or .png
+  std::vector<std::string> set;
+  std::vector<int> size; ///< width and height in pixels; empty: the page's own
+};
+
 // Each runs one command and returns; results go to stdout and files, the rest to stderr. They throw the
 // errors of core/errors.h.
 void run_render(const RenderOptions& options);
@@ -72,5 +79,6 @@ void run_info(const InfoOptions& options);
 void run_phantom(const PhantomOptions& options);
 void run_list(const ListOptions& options);
 void run_gallery(const GalleryOptions& options);
+void run_plot(const PlotOptions& options);
 
 } // namespace slicelens::cli
