@@ -159,7 +159,6 @@ private:
           {save(exact.image, scene.name + "_fragment.png"),
            "fragment: the exact maps at each fragment, drawn in " + milliseconds(exact.times.draw)});
       compare(entry, "axis against fragment", slices.image, exact.image, background);
-      plot_tables(entry, scene.input.scene, progress);
     }
     const bool rays_can = scene.input.scene.overlay.stack == 0 && slicing != Pipeline::fixed_function &&
                           scene.input.scene.render.tiles == std::array<std::size_t, 3>{1, 1, 1};
@@ -169,6 +168,8 @@ private:
           {save(rays.image, scene.name + "_rays.png"), "rays, drawn in " + milliseconds(rays.times.draw)});
       compare(entry, word(slicing) + " against rays", slices.image, rays.image, background);
     }
+    if (tables)
+      plot_tables(entry, scene.input.scene, progress);
     entry.data = std::to_string(volume_.dims[0]) + "×" + std::to_string(volume_.dims[1]) + "×" +
                  std::to_string(volume_.dims[2]) + " " + name_of(volume_.type) + ", " + volume_.format;
     if (scene.argument == scene.name + ".json")
