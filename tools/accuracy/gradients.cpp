@@ -77,7 +77,7 @@ std::vector<Display> displays() {
   Fisheye fisheye;
   fisheye.center = {0.4, 0.3, 0.55};
   fisheye.distortion = glm::dvec3(2);
-  const LensBox box = {{0.35, 0.25, 0.55}, glm::dvec3(0.12), glm::dvec3(0.3), 2};
+  const LensBox box = {{0.35, 0.3, 0.55}, glm::dvec3(0.12), glm::dvec3(0.3), 2};
   std::vector<Display> list = {
       {"undeformed", {}}, {"fisheye", {fisheye}}, {"connected lens", {ConnectedLens{box}}}};
   return list;
@@ -224,7 +224,7 @@ void gradient_section(const Bench& bench) {
          "which on "
          "the undeformed sphere turns its normal by at most "
       << fixed(glm::degrees(kSpacing * std::tan(glm::radians(60.0)) / kRadius), 2)
-      << "°. Fisheye: d = 2 at (0.4, 0.3, 0.55); connected lens: magnification 2 at (0.35, 0.25, 0.55), "
+      << "°. Fisheye: d = 2 at (0.4, 0.3, 0.55); connected lens: magnification 2 at (0.35, 0.3, 0.55), "
          "inner 0.12, "
          "outer 0.3. `data`, `object`: render.gradient_space.\n\n";
   Subject smooth = sphere_subject("Phantom `ball`: a signed distance in floats",
