@@ -7,10 +7,10 @@
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
 #include "gpu/classified.glsl"
-#include "lib/gradient.glsl"
 #include "lib/shade.glsl"
 #include "gpu/warp.glsl"
 #include "gpu/focus_effects.glsl"
+#include "gpu/gradient.glsl"
 #include "gpu/light.glsl"
 #ifdef CUT_PLANES
 #include "gpu/plane.glsl"
@@ -66,7 +66,7 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
   return gathered + vec4(sample_color.a * distance_ratio);
 #endif
 #else
-#ifdef SHADING_DIFFUSE
+#ifdef SHADED
   sample_color.rgb = shade(sample_color.rgb, t, p, to_eye);
 #endif
 #ifdef FOCUS_EFFECTS

@@ -68,8 +68,18 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key("order", s.order, "back-to-front or front-to-back blending of slices");
   visit.key("opacity_correction", s.opacity_correction,
             "fragment (for the distance along each ray), frame (for the slice distance only) or none");
-  visit.key("shading", s.shading, "none or diffuse");
-  visit.key("gradient", s.gradient, "forward or central differences, for shading");
+  visit.key("shading", s.shading,
+            "none, diffuse, phong (with white highlights) or tone (cool to warm: Gooch et al. 1998)");
+  visit.key("gradient", s.gradient,
+            "for shading: forward or central differences, prefiltered (central differences of a Gaussian "
+            "copy) or precomputed (central differences at voxels, interpolated)");
+  visit.key("gradient_space", s.gradient_space,
+            "where differences are taken under a warp: data (then carried by the Jacobian) or object (of the "
+            "displayed volume: Brunet 2006) (none: as the first warp's paper did)");
+  visit.key("gradient_resolution", s.gradient_resolution,
+            "of the Gaussian copy of gradient prefiltered: full, half or quarter");
+  visit.key("gradient_sigma", s.gradient_sigma,
+            "standard deviation of that Gaussian in voxels of the copy, 0.3 to 8", Range::positive);
   visit.key("classification", s.classification,
             "post (interpolate values, then classify) or pre (classify voxels into 8-bit associated colours, "
             "then interpolate those)");
@@ -102,7 +112,12 @@ void light_keys(Visitor& visit, Settings& s) {
   visit.key("direction", s.direction, "world vector towards the light (none: from the camera)");
   visit.key("ambient", s.ambient, "share of the colour that needs no light", Range::non_negative);
   visit.key("diffuse", s.diffuse, "share of the colour that follows Lambert's law", Range::non_negative);
-  visit.key("two_sided", s.two_sided, "light both sides of a surface");
+  visit.key("specular", s.specular, "strength of the white highlights of shading phong", Range::non_negative);
+  visit.key("power", s.power, "of those highlights: larger is sharper", Range::positive);
+  visit.key("cool", s.cool, "[r, g, b] that shading tone adds to what faces away from the light",
+            Range::unit);
+  visit.key("warm", s.warm, "[r, g, b] that shading tone adds to what faces the light", Range::unit);
+  visit.key("two_sided", s.two_sided, "light both sides of a surface (diffuse and phong)");
 }
 
 template <class Visitor, class Settings>

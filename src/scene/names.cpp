@@ -40,13 +40,30 @@ const std::vector<EnumName<OpacityCorrection>>& names_of(OpacityCorrection) {
 
 const std::vector<EnumName<Shading>>& names_of(Shading) {
   static const std::vector<EnumName<Shading>> names = {{Shading::none, "none"},
-                                                       {Shading::diffuse, "diffuse"}};
+                                                       {Shading::diffuse, "diffuse"},
+                                                       {Shading::phong, "phong"},
+                                                       {Shading::tone, "tone"}};
   return names;
 }
 
 const std::vector<EnumName<Gradient>>& names_of(Gradient) {
   static const std::vector<EnumName<Gradient>> names = {{Gradient::forward, "forward"},
-                                                        {Gradient::central, "central"}};
+                                                        {Gradient::central, "central"},
+                                                        {Gradient::prefiltered, "prefiltered"},
+                                                        {Gradient::precomputed, "precomputed"}};
+  return names;
+}
+
+const std::vector<EnumName<GradientSpace>>& names_of(GradientSpace) {
+  static const std::vector<EnumName<GradientSpace>> names = {{GradientSpace::data, "data"},
+                                                             {GradientSpace::object, "object"}};
+  return names;
+}
+
+const std::vector<EnumName<GradientResolution>>& names_of(GradientResolution) {
+  static const std::vector<EnumName<GradientResolution>> names = {{GradientResolution::full, "full"},
+                                                                  {GradientResolution::half, "half"},
+                                                                  {GradientResolution::quarter, "quarter"}};
   return names;
 }
 

@@ -22,6 +22,8 @@ const std::vector<EnumName<Order>>& names_of(Order);
 const std::vector<EnumName<OpacityCorrection>>& names_of(OpacityCorrection);
 const std::vector<EnumName<Shading>>& names_of(Shading);
 const std::vector<EnumName<Gradient>>& names_of(Gradient);
+const std::vector<EnumName<GradientSpace>>& names_of(GradientSpace);
+const std::vector<EnumName<GradientResolution>>& names_of(GradientResolution);
 const std::vector<EnumName<Classification>>& names_of(Classification);
 const std::vector<EnumName<Filter>>& names_of(Filter);
 const std::vector<EnumName<Target>>& names_of(Target);

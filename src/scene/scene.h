@@ -55,8 +55,14 @@ enum class Pipeline { slices, tessellated, axis, fragment, fixed_function, rays,
 enum class Mode { dvr, mip, xray };
 enum class Order { back_to_front, front_to_back };
 enum class OpacityCorrection { fragment, frame, none };
-enum class Shading { none, diffuse };
-enum class Gradient { forward, central };
+enum class Shading { none, diffuse, phong, tone };
+/// `prefiltered`: central differences of a Gaussian copy; `precomputed`: central differences at voxels,
+/// interpolated.
+enum class Gradient { forward, central, prefiltered, precomputed };
+/// Where differences are taken under a warp: in the data, or in the displayed volume (docs/pipeline.md).
+enum class GradientSpace { data, object };
+/// Of the Gaussian copy, as a share of the volume's voxels on each axis.
+enum class GradientResolution { full, half, quarter };
 /// `pre`: voxels become colours of 8 bits before they are interpolated.
 enum class Classification { post, pre };
 enum class Filter { nearest, linear, linear_exact, cubic };
@@ -78,6 +84,9 @@ struct RenderSettings {
   OpacityCorrection opacity_correction = OpacityCorrection::fragment;
   Shading shading = Shading::none;
   Gradient gradient = Gradient::central;
+  std::optional<GradientSpace> gradient_space = std::nullopt;        ///< none: gradient_space_of decides
+  GradientResolution gradient_resolution = GradientResolution::full; ///< of `prefiltered`
+  double gradient_sigma = 1; ///< of `prefiltered`: standard deviation in voxels of its copy
   Classification classification = Classification::post;
   Filter filter = Filter::linear;
   Target target = Target::rgba32f;
@@ -99,6 +108,10 @@ struct LightSettings {
       direction; ///< world vector from the object towards the light; none: at the camera
   double ambient = 0.3;
   double diffuse = 0.7;
+  double specular = 0.2; ///< shading `phong`, with `power`: white highlights
+  double power = 10;
+  glm::dvec3 cool{0, 0, 0.4};   ///< shading `tone`: added to what faces away from the light
+  glm::dvec3 warm{0.4, 0.4, 0}; ///< and to what faces it
   bool two_sided = true;
 };
 
@@ -165,6 +178,11 @@ inline constexpr std::size_t max_levels = 8;
 
 /// Whether a pipeline blends slices (and not rays).
 bool draws_slices(Pipeline pipeline);
+
+/// Where the scene's gradients are taken: `data` without a warp and for `precomputed`; else
+/// render.gradient_space; where that is not given, as the paper of the first warp did: LaMar's and Cohen's
+/// warps in the data, all others in object space (Brunet, Nowak and Gleicher 2006, eq. 1).
+GradientSpace gradient_space_of(const Scene& scene);
 
 /// Whether the scene highlights or attenuates anything.
 bool has_effects(const Scene& scene);
