@@ -4,6 +4,7 @@
 #include "lib/composite.glsl"
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
+float gradient_value(vec3 t) { return displayed_value(t); }
 #include "lib/gradient.glsl"
 #include "gpu/warp.glsl"
 #include "gpu/focus_effects.glsl"
