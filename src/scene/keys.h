@@ -246,6 +246,13 @@ void scene_keys(Visitor& visit, Settings& s) {
                 [](auto& v, auto& x) { highlight_keys(v, x); });
   visit.section("attenuation", s.attenuation, "opacity lowered outside a focus region (Cohen et al. 2008)",
                 [](auto& v, auto& x) { attenuation_keys(v, x); });
+  visit.section("pick", s.pick, "what slicelens pick takes for a surface", [](auto& v, auto& x) {
+    v.key(
+        "gradient", x.gradient,
+        "gradient in data units per world unit that counts as large (none: a tenth of the data's range over "
+        "the smallest voxel spacing)",
+        Range::positive);
+  });
   visit.section("overlay", s.overlay, "what is drawn over it",
                 [](auto& v, auto& x) { scene_overlay_keys(v, x); });
   visit.list("clip", s.clip, "clipping planes", [](auto& v, auto& x) { clip_keys(v, x); });

@@ -137,6 +137,11 @@ struct OverlaySettings {
       0; ///< volumes only: degrees the camera goes aside to show the slices themselves; 0: the volume
 };
 
+/// Section `pick`.
+struct PickSettings {
+  std::optional<double> gradient; ///< data units per world unit; none: a tenth of the range over h
+};
+
 struct Scene {
   std::string title;
   VolumeSettings volume;
@@ -148,6 +153,7 @@ struct Scene {
   std::vector<Warp> warp; ///< in forward order (docs/pipeline.md)
   Highlight highlight;
   Attenuation attenuation;
+  PickSettings pick;
   OverlaySettings overlay;
 };
 
