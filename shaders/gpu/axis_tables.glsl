@@ -20,7 +20,9 @@ AxisTexels fetch_axis_tables(vec3 p) {
   return AxisTexels(axis_texel(axis_table_x, p.x), axis_texel(axis_table_y, p.y), axis_texel(axis_table_z, p.z));
 }
 
-#ifdef AXIS_WEIGHTS
+#if defined(AXIS_UNMASKED)
+float axis_mask(AxisTexels t) { return 1.0; }  // all masks of all tables are
+#elif defined(AXIS_WEIGHTS)
 float axis_mask(AxisTexels t) { return t.x.g * t.y.g * t.z.g; }
 #else
 // Masks are 0 or 1, and linear filtering crosses one half just where the nearest texel changes: the nearest mask without a

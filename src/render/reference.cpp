@@ -1,5 +1,6 @@
 #include "render/reference.h"
 
+#include "render/cut_planes.h"
 #include "render/gradient_texture.h"
 #include "render/level_values.h"
 #include "render/pre_classification.h"
@@ -48,6 +49,7 @@ struct Tracer : SharedFunctions {
   real level = 0; ///< that the sample reads, with render.levels
   Correction correction;
   real ratio;
+  std::vector<CutPlane> planes;
 
   Tracer(const PreparedScene& scene, const std::byte* classified_voxels, const SmoothCopy* smooth_voxels)
       : prepared(scene), voxels(reinterpret_cast<const T*>(scene.volume.voxels.data())),
@@ -56,8 +58,8 @@ struct Tracer : SharedFunctions {
         world_from_gradient(glm::transpose(glm::inverse(dmat3(scene.box.world_from_texture)))),
         filter(scene.scene.render.filter), correction(correction_of(scene)),
         ratio(scene.scene.render.opacity_correction == OpacityCorrection::none ? 1
-                                                                               : axis_distance_ratio(scene)) {
-  }
+                                                                               : axis_distance_ratio(scene)),
+        planes(cut_planes(scene)) {}
 
   std::size_t voxel_index(int i, int j, int k) const {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(dims.y) + static_cast<std::size_t>(j)) *
@@ -216,9 +218,28 @@ struct Tracer : SharedFunctions {
     return this->under(gathered, this->associated(rgb, alpha));
   }
 
+  /// The nearest cutting plane on the ray within the interval, which ends there, and its opaque colour.
+  vec4 stop_at_plane(const SharedFunctions::PixelRay& ray, vec2& interval) const {
+    vec4 color(0);
+    for (const CutPlane& plane : planes) {
+      const real s = -signed_value(plane.place, ray.origin) / dot(plane.place.normal, ray.direction);
+      const vec3 t = data_point(ray.origin + s * ray.direction);
+      const bool inside = all(greaterThanEqual(t, vec3(0))) && all(lessThanEqual(t, vec3(1)));
+      const bool warped = is_warped(prepared);
+      if (!(s >= interval.x && s <= interval.y) || (warped && !inside))
+        continue;
+      interval.y = s;
+      const real value = displayed_value(t);
+      const vec3 grey(std::clamp(plane.grey.x * value + plane.grey.y, 0.0, 1.0));
+      color = vec4(plane.classified ? vec3(evaluate(prepared.transfer, value)) : grey, 1);
+    }
+    return color;
+  }
+
   vec4 trace(const SharedFunctions::RayFrame& frame, bool perspective, real x, real y) {
     const SharedFunctions::PixelRay ray = this->ray_from_pixel(frame, perspective, x, y);
     vec2 interval = this->hit_box(ray, prepared.object_low, prepared.object_high);
+    const vec4 behind = planes.empty() ? vec4(0) : stop_at_plane(ray, interval);
     const auto cut = [&](const Plane& plane) {
       interval = this->clip_interval(interval, ray, vec4(plane.normal, -plane.offset));
     };
@@ -228,7 +249,7 @@ struct Tracer : SharedFunctions {
     const bool mip = prepared.scene.render.mode == Mode::mip;
     vec4 gathered = mip ? vec4(-std::numeric_limits<real>::infinity(), 0, 0, 0) : vec4(0);
     if (interval.x > interval.y)
-      return vec4(0);
+      return behind;
     const vec3 to_eye = perspective ? -normalize(dmat3(prepared.box.world_from_texture) * ray.direction)
                                     : -prepared.view.forward;
     const real delta = prepared.spacing;
@@ -242,7 +263,7 @@ struct Tracer : SharedFunctions {
         break;
     }
     if (!mip)
-      return gathered;
+      return planes.empty() ? gathered : this->under(gathered, behind);
     if (gathered.w == 0)
       return vec4(0);
     const vec4 color = with_effects(evaluate(prepared.transfer, gathered.x), vec2(gathered.y, gathered.z));

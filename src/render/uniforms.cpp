@@ -59,7 +59,9 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("PERSPECTIVE");
   if (render.pipeline == Pipeline::axis) {
     macros.emplace_back("AXIS_TABLES");
-    if (prepared.tables.mask == AxisMask::weight)
+    if (is_unmasked(prepared.tables))
+      macros.emplace_back("AXIS_UNMASKED");
+    else if (prepared.tables.mask == AxisMask::weight)
       macros.emplace_back("AXIS_WEIGHTS");
   } else if (is_warped(prepared)) {
     macros.emplace_back("WARPED");

@@ -128,6 +128,14 @@ void clip_keys(Visitor& visit, Settings& s) {
 }
 
 template <class Visitor, class Settings>
+void plane_keys(Visitor& visit, Settings& s) {
+  visit.key("point", s.point, "a point of the plane, texture coordinates of the displayed volume");
+  visit.key("normal", s.normal, "world vector");
+  visit.key("style", s.style, "values (grey) or transfer (the transfer function's colours, opaque)");
+  visit.key("range", s.range, "[black, white] of the grey in data units (none: the data's range)");
+}
+
+template <class Visitor, class Settings>
 void lamar_keys(Visitor& visit, Settings& s) {
   visit.key("shape", s.shape, "circle or square");
   visit.key("border", s.border, "simple, linear or cubic");
@@ -255,6 +263,8 @@ void scene_keys(Visitor& visit, Settings& s) {
   });
   visit.section("overlay", s.overlay, "what is drawn over it",
                 [](auto& v, auto& x) { scene_overlay_keys(v, x); });
+  visit.list("planes", s.planes, "cutting planes that show the displayed volume, opaque",
+             [](auto& v, auto& x) { plane_keys(v, x); });
   visit.list("clip", s.clip, "clipping planes", [](auto& v, auto& x) { clip_keys(v, x); });
 }
 

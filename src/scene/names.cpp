@@ -154,4 +154,10 @@ const std::vector<EnumName<Wireframe>>& names_of(Wireframe) {
   return names;
 }
 
+const std::vector<EnumName<PlaneStyle>>& names_of(PlaneStyle) {
+  static const std::vector<EnumName<PlaneStyle>> names = {{PlaneStyle::values, "values"},
+                                                          {PlaneStyle::transfer, "transfer"}};
+  return names;
+}
+
 } // namespace slicelens

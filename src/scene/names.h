@@ -36,6 +36,7 @@ const std::vector<EnumName<ContextName>>& names_of(ContextName);
 const std::vector<EnumName<ClipSpace>>& names_of(ClipSpace);
 const std::vector<EnumName<LensShape>>& names_of(LensShape);
 const std::vector<EnumName<Wireframe>>& names_of(Wireframe);
+const std::vector<EnumName<PlaneStyle>>& names_of(PlaneStyle);
 const std::vector<EnumName<LensBorder>>& names_of(LensBorder);
 
 /// The word of an enumerator.

@@ -214,6 +214,29 @@ void validate_bricks(const Scene& scene) {
   }
 }
 
+void validate_planes(const Scene& scene) {
+  for (const PlaneSettings& plane : scene.planes) {
+    if (glm::length(plane.normal) == 0)
+      throw UsageError("planes: a plane's normal is the zero vector; give a direction");
+    if (plane.range && !(plane.range->x < plane.range->y))
+      throw UsageError("planes: range must be [black, white] with black below white");
+  }
+  if (scene.planes.empty())
+    return;
+  const RenderSettings& render = scene.render;
+  const auto refuse = [](const std::string& problem) {
+    throw UsageError("planes are opaque polygons that show single values; " + problem);
+  };
+  if (scene.planes.size() > max_planes_shown)
+    refuse("give at most " + std::to_string(max_planes_shown));
+  if (render.mode != Mode::dvr)
+    refuse("set render.mode to dvr");
+  if (render.classification == Classification::pre || render.pipeline == Pipeline::fixed_function)
+    refuse("set render.classification to post and take another pipeline than fixed-function");
+  if (render.tiles != std::array<std::size_t, 3>{1, 1, 1} || render.levels != 1)
+    refuse("set render.tiles to [1,1,1] and render.levels to 1");
+}
+
 /// Whether the warp is LaMar's or Cohen's, whose gradients are the data's own, carried by the Jacobian.
 bool carries_gradients(const Warp& warp) {
   return std::holds_alternative<LamarLens>(warp) || std::holds_alternative<Bifocal>(warp) ||
@@ -320,6 +343,7 @@ void validate(const Scene& scene) {
   validate_warps(scene);
   validate_effects(scene);
   validate_bricks(scene);
+  validate_planes(scene);
   validate_gradients(scene);
   for (const ClipSettings& plane : scene.clip) {
     if (glm::length(plane.normal) == 0)

@@ -124,6 +124,16 @@ struct ClipSettings {
   ClipSpace space = ClipSpace::texture;
 };
 
+enum class PlaneStyle { values, transfer };
+
+/// One entry of `planes`: an opaque polygon that shows the displayed volume where it cuts it.
+struct PlaneSettings {
+  glm::dvec3 point{0.5};                          ///< texture coordinates of the displayed volume
+  glm::dvec3 normal{0, -1, 0};                    ///< world space, any length but zero
+  PlaneStyle style = PlaneStyle::values;          ///< grey, or the transfer function's colours
+  std::optional<glm::dvec2> range = std::nullopt; ///< of the grey, data units; none: the data's
+};
+
 enum class Wireframe { none, segments, triangles };
 
 /// Section `overlay`: lines and false colours drawn over the picture.
@@ -154,8 +164,12 @@ struct Scene {
   Highlight highlight;
   Attenuation attenuation;
   PickSettings pick;
+  std::vector<PlaneSettings> planes; ///< not cut by `clip`
   OverlaySettings overlay;
 };
+
+/// Most entries of `planes`.
+inline constexpr std::size_t max_planes_shown = 16;
 
 /// Limits of render.tiles and render.levels.
 inline constexpr std::size_t max_tiles = 1024;    ///< in all

@@ -78,6 +78,17 @@ struct PickOptions {
   std::vector<std::string> set;
 };
 
+struct SliceOptions {
+  std::string input;
+  std::string output;
+  std::vector<double> point;  ///< texture coordinates of the displayed volume
+  std::vector<double> normal; ///< world
+  std::string style = "values";
+  std::vector<double> range; ///< of the grey; empty: the data's
+  std::vector<std::string> set;
+  std::string depth; ///< as in RenderOptions
+};
+
 // Each runs one command and returns; results go to stdout and files, the rest to stderr. They throw the
 // errors of core/errors.h.
 void run_render(const RenderOptions& options);
@@ -89,5 +100,6 @@ void run_list(const ListOptions& options);
 void run_gallery(const GalleryOptions& options);
 void run_plot(const PlotOptions& options);
 void run_pick(const PickOptions& options);
+void run_slice(const SliceOptions& options);
 
 } // namespace slicelens::cli
