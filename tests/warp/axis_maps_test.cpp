@@ -166,8 +166,8 @@ TEST_CASE("every axis map is continuous, rises, keeps its ends, and is the ident
     INFO(kind.name);
     CHECK(rc::check([&] {
       const Axis map = kind.make();
-      RC_ASSERT(std::abs(map(0).x) <= 1e-15);
-      RC_ASSERT(std::abs(map(1).x - 1) <= 1e-15);
+      RC_ASSERT(std::abs(map(0).x) <= 1e-14); // rounding, times slopes of up to 20
+      RC_ASSERT(std::abs(map(1).x - 1) <= 1e-14);
       const double beyond = random_in(1e-9, 3);
       RC_ASSERT(map(-beyond) == glm::dvec2(-beyond, 1));
       RC_ASSERT(map(1 + beyond) == glm::dvec2(1 + beyond, 1));
