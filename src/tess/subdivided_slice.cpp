@@ -52,25 +52,24 @@ Grid grid_over(const Polygon& polygon, const BoxSpace& space, const WarpView& vi
   return grid;
 }
 
-/// The polygon's edges as planes across the slice that look inwards. A hair outwards, so that nodes on an edge are inside and
-/// leave no slivers.
-std::vector<Plane> edge_planes(const Polygon& polygon) {
+/// The polygon's edges as planes across the slice, of that normal, that look inwards. A hair outwards, so
+/// that nodes on an edge are inside and leave no slivers.
+std::vector<Plane> edge_planes(const Polygon& polygon, const glm::dvec3& normal, double hair) {
   glm::dvec3 middle(0);
   for (const glm::dvec3& corner : polygon)
     middle += corner / static_cast<double>(polygon.size());
-  const glm::dvec3 normal = glm::cross(polygon[1] - polygon[0], polygon[2] - polygon[0]);
   std::vector<Plane> planes;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
     Plane plane{glm::cross(normal, edge), 0};
     const double size = glm::length(plane.normal);
-    if (!(size > 0))
-      continue;
+    if (!(glm::length(edge) > 1e-9 && size > 0))
+      continue; // of two corners in one place: its direction is rounding
     plane.normal /= size;
     plane.offset = glm::dot(plane.normal, polygon[i]);
     if (signed_value(plane, middle) < 0)
       plane = {-plane.normal, -plane.offset};
-    plane.offset -= 1e-12;
+    plane.offset -= hair;
     planes.push_back(plane);
   }
   return planes;
@@ -108,7 +107,7 @@ LensMesh subdivide_slice(const Polygon& polygon, const std::vector<WarpMap>& map
   if (polygon.size() < 3)
     return mesh;
   const Grid grid = grid_over(polygon, space, view, cells);
-  const std::vector<Plane> edges = edge_planes(polygon);
+  const std::vector<Plane> edges = edge_planes(polygon, view.forward * space.size, 1e-11 * grid.cell);
   if (edges.size() < 3)
     return mesh;
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
