@@ -167,6 +167,10 @@ void validate_warps(const Scene& scene) {
                        std::to_string(max_grid_nodes) + " nodes on every axis, not " + std::to_string(nodes));
     }
   }
+  if (scene.render.subdivision < 1 || scene.render.subdivision > max_subdivision) {
+    throw UsageError("render.subdivision must be from 1 to " + std::to_string(max_subdivision) + ", not " +
+                     std::to_string(scene.render.subdivision));
+  }
   if (scene.render.pipeline == Pipeline::axis)
     (void)make_axis_tables(scene.warp, {}, {0, 0, 0}); // refuses lists that have no tables
 }
