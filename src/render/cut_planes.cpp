@@ -93,7 +93,8 @@ PlaneRenderer::PlaneRenderer(const gl::Functions& gl, const PreparedScene& prepa
   std::vector<std::string> macros = common_macros(prepared);
   std::erase(macros, "WARP_TESSELLATED"); // polygons have no lens of their own: the exact map
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "slices.vert", macros);
-  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "plane.frag", macros, {warp_chain(prepared.maps)});
+  const auto fragment =
+      shader_stage(GL_FRAGMENT_SHADER, "plane.frag", macros, {warp_chain(drawn_maps(prepared))});
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   program_ = gl::make_program(gl, stages);
   vertex_array_ = gl::make_vertex_array(gl);

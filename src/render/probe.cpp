@@ -38,7 +38,8 @@ gl::Program probe_program(const gl::Functions& gl, const PreparedScene& prepared
       macros.emplace_back("GRADIENT_IN_OBJECT_SPACE");
   }
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "probe.vert", {});
-  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "probe.frag", macros, {warp_chain(prepared.maps)});
+  const auto fragment =
+      shader_stage(GL_FRAGMENT_SHADER, "probe.frag", macros, {warp_chain(drawn_maps(prepared))});
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   return gl::make_program(gl, stages);
 }

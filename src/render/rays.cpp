@@ -54,7 +54,8 @@ RayRenderer::RayRenderer(const gl::Functions& gl, const PreparedScene& prepared)
   if (!prepared.scene.planes.empty())
     macros.push_back("CUT_PLANES " + std::to_string(prepared.scene.planes.size()));
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});
-  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "rays.frag", macros, {warp_chain(prepared.maps)});
+  const auto fragment =
+      shader_stage(GL_FRAGMENT_SHADER, "rays.frag", macros, {warp_chain(drawn_maps(prepared))});
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   program_ = gl::make_program(gl, stages);
   no_vertices_ = gl::make_vertex_array(gl);

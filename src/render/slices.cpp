@@ -57,7 +57,7 @@ void set_blending(const gl::Functions& gl, const RenderSettings& render) {
 } // namespace
 
 SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
-  const std::vector<EmbeddedFile> generated = {warp_chain(prepared.maps)};
+  const std::vector<EmbeddedFile> generated = {warp_chain(drawn_maps(prepared))};
   std::vector<gl::ShaderSource> stages =
       shader_stage(GL_VERTEX_SHADER, "slices.vert", common_macros(prepared));
   const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "slices.frag", common_macros(prepared), generated);

@@ -1,5 +1,6 @@
 #include "render/uniforms.h"
 
+#include "render/grid_textures.h"
 #include "render/tiled_draw.h"
 #include "render/warp_glsl.h"
 #include "scene/names.h"
@@ -67,7 +68,7 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("WARPED");
     if (render.pipeline == Pipeline::tessellated)
       macros.emplace_back("WARP_TESSELLATED");
-    if (render.pipeline == Pipeline::fragment)
+    if (render.pipeline == Pipeline::fragment || render.pipeline == Pipeline::grid)
       macros.emplace_back("WARP_FRAGMENT");
   }
   if (has_highlight(prepared.effects))
@@ -100,7 +101,7 @@ std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes) {
 
 void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared) {
   if (prepared.scene.render.pipeline != Pipeline::axis)
-    set_warp_maps(gl, program, prepared.maps, prepared.space);
+    set_warp_maps(gl, program, drawn_maps(prepared), prepared.space);
   const std::vector<glm::vec4> planes = plane_vectors(prepared.data_clip);
   set_uniform(gl, program, "data_plane_count", static_cast<int>(planes.size()));
   if (!planes.empty())
@@ -143,6 +144,7 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
                          const GpuScene& scene) {
   if (is_warped(prepared))
     set_warp_uniforms(gl, program, prepared);
+  bind_grids(gl, scene.grids);
   if (has_highlight(prepared.effects) || has_attenuation(prepared.effects))
     set_struct(gl, program, "effects", prepared.effects);
   if (scene.axis[0])

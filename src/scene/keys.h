@@ -56,7 +56,7 @@ template <class Visitor, class Settings>
 void render_keys(Visitor& visit, Settings& s) {
   visit.key("pipeline", s.pipeline,
             "where the map is evaluated: slices (no warp), tessellated (per vertex), axis (in three 1D "
-            "textures), fragment, "
+            "textures), fragment, grid (in a 3D texture), "
             "fixed-function (per vertex, without shaders), rays (GPU), or reference (CPU, double)");
   visit.key("mode", s.mode,
             "dvr (emission and absorption), mip (maximum) or xray (line integral of the opacity)");
@@ -101,6 +101,9 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key("axis_texels", s.axis_texels,
             "texels of each 1D texture of pipeline axis, 16 to 4096 (none: one for each voxel)");
   visit.key("axis_filter", s.axis_filter, "how pipeline axis reads its 1D textures: linear or nearest");
+  visit.per_axis("grid_size", s.grid_size,
+                 "nodes of pipeline grid's 3D texture, 8 to 128; one number or one for each axis",
+                 Range::positive);
   visit.key("early_termination", s.early_termination, "rays stop at this opacity in (0,1]; 1: never",
             Range::unit);
   visit.key("background", s.background, "[r, g, b, a] in [0,1], not associated", Range::unit);

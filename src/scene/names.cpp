@@ -9,13 +9,11 @@ const std::vector<EnumName<ProjectionName>>& names_of(ProjectionName) {
 }
 
 const std::vector<EnumName<Pipeline>>& names_of(Pipeline) {
-  static const std::vector<EnumName<Pipeline>> names = {{Pipeline::slices, "slices"},
-                                                        {Pipeline::tessellated, "tessellated"},
-                                                        {Pipeline::axis, "axis"},
-                                                        {Pipeline::fragment, "fragment"},
-                                                        {Pipeline::fixed_function, "fixed-function"},
-                                                        {Pipeline::rays, "rays"},
-                                                        {Pipeline::reference, "reference"}};
+  static const std::vector<EnumName<Pipeline>> names = {
+      {Pipeline::slices, "slices"}, {Pipeline::tessellated, "tessellated"},
+      {Pipeline::axis, "axis"},     {Pipeline::fragment, "fragment"},
+      {Pipeline::grid, "grid"},     {Pipeline::fixed_function, "fixed-function"},
+      {Pipeline::rays, "rays"},     {Pipeline::reference, "reference"}};
   return names;
 }
 

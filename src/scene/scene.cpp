@@ -161,6 +161,12 @@ void validate_warps(const Scene& scene) {
     throw UsageError("overlay.wireframe shows the triangles of a lens; pipeline '" + pipeline +
                      "' has none, give tessellated or fixed-function");
   }
+  for (const std::size_t nodes : scene.render.grid_size) {
+    if (nodes < smallest_grid_size || nodes > max_grid_nodes) {
+      throw UsageError("render.grid_size must be from " + std::to_string(smallest_grid_size) + " to " +
+                       std::to_string(max_grid_nodes) + " nodes on every axis, not " + std::to_string(nodes));
+    }
+  }
   if (scene.render.pipeline == Pipeline::axis)
     (void)make_axis_tables(scene.warp, {}, {0, 0, 0}); // refuses lists that have no tables
 }
@@ -195,6 +201,10 @@ void validate_bricks(const Scene& scene) {
   }
   if (render.levels == 1 || scene.warp.empty())
     return;
+  if (render.pipeline == Pipeline::grid) {
+    throw UsageError("render.levels follow the zoom of a lens, which pipeline 'grid' does not hold; set "
+                     "render.levels to 1");
+  }
   double zoom = 0;
   for (const Warp& warp : scene.warp) {
     const auto* lens = std::get_if<LamarLens>(&warp);
@@ -284,7 +294,7 @@ GradientSpace gradient_space_of(const Scene& scene) {
 
 bool draws_slices(Pipeline pipeline) {
   return pipeline == Pipeline::slices || pipeline == Pipeline::tessellated || pipeline == Pipeline::axis ||
-         pipeline == Pipeline::fragment || pipeline == Pipeline::fixed_function;
+         pipeline == Pipeline::fragment || pipeline == Pipeline::grid || pipeline == Pipeline::fixed_function;
 }
 
 bool has_effects(const Scene& scene) {

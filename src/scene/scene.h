@@ -51,7 +51,7 @@ struct CameraSettings {
   std::optional<double> parallel_scale = std::nullopt;
 };
 
-enum class Pipeline { slices, tessellated, axis, fragment, fixed_function, rays, reference };
+enum class Pipeline { slices, tessellated, axis, fragment, grid, fixed_function, rays, reference };
 enum class Mode { dvr, mip, xray };
 enum class Order { back_to_front, front_to_back };
 enum class OpacityCorrection { fragment, frame, none };
@@ -97,7 +97,8 @@ struct RenderSettings {
   std::optional<std::size_t> axis_texels =
       std::nullopt; ///< of each table of `axis`; none: one for each voxel
   AxisFilter axis_filter = AxisFilter::linear;
-  double early_termination = 1; ///< rays stop when their opacity reaches this; 1: never
+  std::array<std::size_t, 3> grid_size{32, 32, 32}; ///< nodes of `grid` on each axis
+  double early_termination = 1;                     ///< rays stop when their opacity reaches this; 1: never
   glm::dvec4 background{0, 0, 0, 1};
   ContextName context = ContextName::automatic;
 };
@@ -175,6 +176,8 @@ inline constexpr std::size_t max_planes_shown = 16;
 inline constexpr std::size_t max_tiles = 1024;    ///< in all
 inline constexpr std::size_t min_tile_voxels = 4; ///< on each axis of a tile
 inline constexpr std::size_t max_levels = 8;
+/// Limit of render.grid_size; the upper one is max_grid_nodes.
+inline constexpr std::size_t smallest_grid_size = 8;
 
 /// Whether a pipeline blends slices (and not rays).
 bool draws_slices(Pipeline pipeline);

@@ -31,19 +31,19 @@ const std::vector<WarpInfo>& warp_infos() {
   static const std::vector<WarpInfo> infos = {
       {"lamar",
        "magnification lens with tessellated borders (LaMar, Hamann and Joy 2001)",
-       {"tessellated", "fragment", "fixed-function", "rays", "reference"}},
+       {"tessellated", "fragment", "grid", "fixed-function", "rays", "reference"}},
       {"bifocal",
        "shows one box of the data in another, squeezes the rest (Cohen, Brodlie and Phillips 2008)",
-       {"axis", "fragment", "rays", "reference"}},
+       {"axis", "fragment", "grid", "rays", "reference"}},
       {"fisheye",
        "magnifies about a focal point, less and less towards the faces (Cohen, Brodlie and Phillips 2008)",
-       {"axis", "fragment", "rays", "reference"}},
+       {"axis", "fragment", "grid", "rays", "reference"}},
       {"volume-lens",
        "magnifies within a box fixed in the volume, and cuts at its faces (Cohen, Brodlie and Phillips 2008)",
-       {"axis", "fragment", "rays", "reference"}},
+       {"axis", "fragment", "grid", "rays", "reference"}},
       {"connected-lens",
        "the volume lens without the cut: continuous everywhere",
-       {"axis", "fragment", "rays", "reference"}},
+       {"axis", "fragment", "grid", "rays", "reference"}},
   };
   return infos;
 }
@@ -156,6 +156,9 @@ WarpGlsl glsl_of(const WarpMap& map) {
           },
           [](const ConnectedLensMap&) -> WarpGlsl {
             return {axis_library, "warp/connected_lens.glsl", "ConnectedLensMap", "connected_lens"};
+          },
+          [](const GridMap&) -> WarpGlsl {
+            return {"gpu/map_grid.glsl", "warp/grid.glsl", "GridMap", "grid"};
           },
       },
       map);

@@ -5,6 +5,7 @@
 #include "warp/bifocal.h"
 #include "warp/fisheye.h"
 #include "warp/lamar.h"
+#include "warp/map_grid.h"
 #include "warp/volume_lens.h"
 
 #include <optional>
@@ -47,7 +48,7 @@ std::optional<AxisRanges> focus_region(const Warp& warp);
 std::optional<AxisRanges> focus_region(const std::vector<Warp>& warps);
 
 /// A warp's numbers for a box and a view: what its functions in shaders/warp/ take.
-using WarpMap = std::variant<LamarMap, BifocalMap, FisheyeMap, VolumeLensMap, ConnectedLensMap>;
+using WarpMap = std::variant<LamarMap, BifocalMap, FisheyeMap, VolumeLensMap, ConnectedLensMap, GridMap>;
 
 /// Throws UsageError where a lens cannot be seen from the view.
 WarpMap map_of(const Warp& warp, const BoxSpace& space, const WarpView& view);
