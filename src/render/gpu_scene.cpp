@@ -1,5 +1,6 @@
 #include "render/gpu_scene.h"
 
+#include "render/grid_textures.h"
 #include "render/pre_classification.h"
 #include "scene/names.h"
 #include "volume/pyramid.h"
@@ -164,10 +165,12 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
   GpuScene scene;
   if (prepared.scene.render.pipeline == Pipeline::axis)
     (void)upload_axis_tables(gl, prepared, scene.axis);
+  const std::vector<WarpMap> maps = drawn_maps(prepared);
+  scene.grids = upload_grids(gl, maps);
   if (prepared.scene.render.classification == Classification::pre) {
     scene.volume = upload_classified(gl, prepared, progress);
     scene.texture = "rgba8, classified";
-    scene.bytes = voxel_count(volume) * classified_voxel_bytes;
+    scene.bytes = voxel_count(volume) * classified_voxel_bytes + grid_bytes(maps);
     return scene;
   }
   scene.format = chosen_texture(prepared.scene.render.volume_texture, volume.type);
@@ -194,6 +197,7 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
     coding = {1, volume.type == ScalarType::f32 ? 0 : volume.min};
     upload_all<float>(gl, prepared, GL_R32F, coding, scene, progress);
   }
+  scene.gradients = upload_gradients(gl, prepared, progress);
   scene.value_from_texel = glm::vec2(coding.scale * levels, coding.offset);
   scene.texture = word(scene.format);
   scene.transfer = upload_transfer(gl, prepared, scene);
@@ -202,6 +206,8 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
   scene.whole_bytes = voxel_count(volume) * texel_bytes + transfer_bytes;
   scene.bytes = is_bricked(prepared.scene.render) ? brick_voxels(scene.plan) * texel_bytes + transfer_bytes
                                                   : scene.whole_bytes;
+  scene.bytes += scene.gradients.bytes;
+  scene.bytes += grid_bytes(maps);
   return scene;
 }
 

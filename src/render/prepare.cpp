@@ -80,6 +80,11 @@ void prepare_warps(PreparedScene& prepared) {
   refuse_overlap(prepared.lenses);
   prepared.object_low = texture_from_box(prepared.space, shown.low);
   prepared.object_high = texture_from_box(prepared.space, shown.high);
+  prepared.map_grid.reset();
+  if (prepared.scene.render.pipeline == Pipeline::grid && is_warped(prepared)) {
+    prepared.map_grid = GridMap{std::make_shared<const MapGrid>(
+        make_map_grid(prepared.maps, prepared.scene.render.grid_size, shown.low, shown.high))};
+  }
 }
 
 /// Unit vector from the focus centre to the viewer, along the volume's axes (Cohen, Brodlie and Phillips 2008
@@ -134,6 +139,7 @@ void prepare_again(PreparedScene& prepared) {
     auto& planes = plane.space == ClipSpace::texture ? prepared.data_clip : prepared.object_clip;
     planes.push_back(pull_back(world, prepared.box.world_from_texture));
   }
+  prepared.gradient_space = gradient_space_of(scene);
   prepare_warps(prepared);
   prepare_effects(prepared);
   if (is_bricked(scene.render))
@@ -147,6 +153,16 @@ AxisTables axis_tables_of(const PreparedScene& prepared) {
   if (scene.render.axis_texels)
     counts.fill(*scene.render.axis_texels);
   return make_axis_tables(scene.warp, prepared.effects, counts);
+}
+
+std::vector<WarpMap> drawn_maps(const PreparedScene& prepared) {
+  return prepared.map_grid ? std::vector<WarpMap>{*prepared.map_grid} : prepared.maps;
+}
+
+MapGridError map_grid_error(const PreparedScene& prepared) {
+  const auto& dims = prepared.volume.dims;
+  return map_grid_error(*prepared.map_grid->grid, prepared.maps, prepared.space,
+                        glm::dvec3(dims[0], dims[1], dims[2]));
 }
 
 double axis_distance_ratio(const PreparedScene& prepared) {

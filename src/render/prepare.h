@@ -8,6 +8,7 @@
 #include "volume/transfer.h"
 #include "volume/volume.h"
 #include "warp/axis_tables.h"
+#include "warp/warp_grid.h"
 
 #include <vector>
 
@@ -27,12 +28,14 @@ struct PreparedScene {
   std::vector<Plane> object_clip; ///< half-spaces of the displayed volume, in its texture coordinates
   BoxSpace space;
   WarpView warp_view;
-  std::vector<WarpMap> maps;            ///< the scene's warps for this view, in forward order
-  std::vector<LensTessellation> lenses; ///< those of kind `lamar`
-  FocusEffects effects{};               ///< highlight and attenuation for this view
-  AxisTables tables;                    ///< pipeline `axis` only
-  double log_zoom = 0;                  ///< ln of their largest zoom, for render.levels; 0 without a lens
-  std::vector<Volume> pyramid;          ///< levels 1, 2 … of render.levels (volume/pyramid.h)
+  std::vector<WarpMap> maps;                          ///< the scene's warps for this view, in forward order
+  std::vector<LensTessellation> lenses;               ///< those of kind `lamar`
+  FocusEffects effects{};                             ///< highlight and attenuation for this view
+  AxisTables tables;                                  ///< pipeline `axis` only
+  std::optional<GridMap> map_grid;                    ///< pipeline `grid` only: all of `maps` in one
+  GradientSpace gradient_space = GradientSpace::data; ///< where the differences of shading are taken
+  double log_zoom = 0;         ///< ln of their largest zoom, for render.levels; 0 without a lens
+  std::vector<Volume> pyramid; ///< levels 1, 2 … of render.levels (volume/pyramid.h)
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};
@@ -41,6 +44,12 @@ struct PreparedScene {
 /// The tables that pipeline `axis` reads, whatever the scene's pipeline: one texel for each voxel, or
 /// render.axis_texels. Throws as make_axis_tables does.
 AxisTables axis_tables_of(const PreparedScene& prepared);
+
+/// The maps that shaders evaluate: pipeline `grid` has one in place of the whole chain.
+std::vector<WarpMap> drawn_maps(const PreparedScene& prepared);
+
+/// How far the picture of pipeline `grid` looks from where it should. Needs prepared.map_grid.
+MapGridError map_grid_error(const PreparedScene& prepared);
 
 /// Whether any point of the displayed volume may look elsewhere in the data.
 inline bool is_warped(const PreparedScene& prepared) { return !prepared.maps.empty(); }

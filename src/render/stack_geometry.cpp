@@ -94,7 +94,7 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
       mesh = subdivide_slice(polygon, prepared.maps, prepared.space, prepared.warp_view, render.subdivision);
     } else if (!warped || !lenses_only) {
       mesh = cover_slice(polygon, {}, prepared.space, {});
-    } else if (render.pipeline == Pipeline::fragment) {
+    } else if (render.pipeline == Pipeline::fragment || render.pipeline == Pipeline::grid) {
       mesh = cover_slice(polygon, prepared.lenses, prepared.space, prepared.object_clip);
     } else {
       mesh = tessellate_slice(polygon, prepared.lenses, prepared.space, clip);

@@ -1,10 +1,37 @@
 #include "render/uniforms.h"
 
+#include "render/grid_textures.h"
 #include "render/stack_geometry.h"
 #include "render/tiled_draw.h"
 #include "render/warp_glsl.h"
+#include "scene/names.h"
+
+#include <cctype>
 
 namespace slicelens {
+
+namespace {
+
+std::string upper_case(std::string text) {
+  for (char& c : text)
+    c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+void add_shading_macros(const PreparedScene& prepared, std::vector<std::string>& macros) {
+  const RenderSettings& render = prepared.scene.render;
+  if (render.shading == Shading::none)
+    return;
+  macros.emplace_back("SHADED");
+  macros.push_back("SHADING_" + upper_case(word(render.shading)));
+  macros.push_back("GRADIENT_" + upper_case(word(render.gradient)));
+  if (prepared.gradient_space == GradientSpace::object)
+    macros.emplace_back("GRADIENT_IN_OBJECT_SPACE");
+  if (!prepared.scene.light.direction)
+    macros.emplace_back("LIGHT_AT_EYE");
+}
+
+} // namespace
 
 std::vector<std::string> common_macros(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
@@ -28,17 +55,14 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("MODE_XRAY");
     break;
   }
-  if (render.shading == Shading::diffuse) {
-    macros.emplace_back("SHADING_DIFFUSE");
-    macros.emplace_back(render.gradient == Gradient::forward ? "GRADIENT_FORWARD" : "GRADIENT_CENTRAL");
-    if (!prepared.scene.light.direction)
-      macros.emplace_back("LIGHT_AT_EYE");
-  }
+  add_shading_macros(prepared, macros);
   if (prepared.view.projection == Projection::perspective)
     macros.emplace_back("PERSPECTIVE");
   if (render.pipeline == Pipeline::axis) {
     macros.emplace_back("AXIS_TABLES");
-    if (prepared.tables.mask == AxisMask::weight)
+    if (is_unmasked(prepared.tables))
+      macros.emplace_back("AXIS_UNMASKED");
+    else if (prepared.tables.mask == AxisMask::weight)
       macros.emplace_back("AXIS_WEIGHTS");
   } else if (is_warped(prepared)) {
     macros.emplace_back("WARPED");
@@ -46,7 +70,7 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
       macros.emplace_back("WARP_TESSELLATED");
     if (is_subdivided(prepared))
       macros.emplace_back("WARP_SUBDIVIDED");
-    if (render.pipeline == Pipeline::fragment)
+    if (render.pipeline == Pipeline::fragment || render.pipeline == Pipeline::grid)
       macros.emplace_back("WARP_FRAGMENT");
   }
   if (has_highlight(prepared.effects))
@@ -79,7 +103,7 @@ std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes) {
 
 void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared) {
   if (prepared.scene.render.pipeline != Pipeline::axis)
-    set_warp_maps(gl, program, prepared.maps, prepared.space);
+    set_warp_maps(gl, program, drawn_maps(prepared), prepared.space);
   const std::vector<glm::vec4> planes = plane_vectors(prepared.data_clip);
   set_uniform(gl, program, "data_plane_count", static_cast<int>(planes.size()));
   if (!planes.empty())
@@ -95,16 +119,38 @@ void set_axis_tables(const gl::Functions& gl, const gl::Program& program, const 
   }
 }
 
+void set_shading_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
+                          const GradientTexture& gradients) {
+  if (gradients.texture) {
+    gl.ActiveTexture(GL_TEXTURE0 + gradient_unit);
+    gl.BindTexture(GL_TEXTURE_3D, gradients.texture.name());
+    set_uniform(gl, program, "gradient_texture", static_cast<int>(gradient_unit));
+  }
+  set_uniform(gl, program, "voxel", gradients.voxel);
+  set_uniform(gl, program, "gradient_scale", gradients.scale);
+  const glm::dmat3 world_from_texture(prepared.box.world_from_texture);
+  set_uniform(gl, program, "world_from_gradient",
+              glm::mat3(glm::transpose(glm::inverse(world_from_texture))));
+  const LightSettings& light = prepared.scene.light;
+  set_uniform(gl, program, "to_light", glm::vec3(light_direction(prepared, -prepared.view.forward)));
+  set_uniform(gl, program, "ambient", static_cast<float>(light.ambient));
+  set_uniform(gl, program, "diffuse", static_cast<float>(light.diffuse));
+  set_uniform(gl, program, "specular", static_cast<float>(light.specular));
+  set_uniform(gl, program, "power", static_cast<float>(light.power));
+  set_uniform(gl, program, "cool", glm::vec3(light.cool));
+  set_uniform(gl, program, "warm", glm::vec3(light.warm));
+  set_uniform(gl, program, "two_sided", light.two_sided ? 1 : 0);
+}
+
 void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
                          const GpuScene& scene) {
   if (is_warped(prepared))
     set_warp_uniforms(gl, program, prepared);
+  bind_grids(gl, scene.grids);
   if (has_highlight(prepared.effects) || has_attenuation(prepared.effects))
     set_struct(gl, program, "effects", prepared.effects);
   if (scene.axis[0])
     set_axis_tables(gl, program, scene.axis);
-  const Volume& volume = prepared.volume;
-  const LightSettings& light = prepared.scene.light;
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_3D, scene.volume.name());
   gl.ActiveTexture(GL_TEXTURE1);
@@ -119,15 +165,8 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
   set_uniform(gl, program, "value_from_texel", scene.value_from_texel);
   set_uniform(gl, program, "transfer_from_value", scene.transfer_from_value);
   set_uniform(gl, program, "transfer_from_texel", scene.transfer_from_texel);
-  set_uniform(gl, program, "voxel",
-              glm::vec3(1.0 / glm::dvec3(volume.dims[0], volume.dims[1], volume.dims[2])));
-  const glm::dmat3 world_from_texture(prepared.box.world_from_texture);
-  set_uniform(gl, program, "world_from_gradient",
-              glm::mat3(glm::transpose(glm::inverse(world_from_texture))));
-  set_uniform(gl, program, "to_light", glm::vec3(light_direction(prepared, -prepared.view.forward)));
-  set_uniform(gl, program, "ambient", static_cast<float>(light.ambient));
-  set_uniform(gl, program, "diffuse", static_cast<float>(light.diffuse));
-  set_uniform(gl, program, "two_sided", light.two_sided ? 1 : 0);
+  if (prepared.scene.render.shading != Shading::none)
+    set_shading_uniforms(gl, program, prepared, scene.gradients);
   set_uniform(gl, program, "to_eye_axis", glm::vec3(-prepared.view.forward));
   set_uniform(gl, program, "distance_ratio",
               static_cast<float>(prepared.scene.render.opacity_correction == OpacityCorrection::none

@@ -60,8 +60,12 @@ EmbeddedFile warp_chain(const std::vector<WarpMap>& maps) {
 void set_warp_maps(const gl::Functions& gl, const gl::Program& program, const std::vector<WarpMap>& maps,
                    const BoxSpace& space) {
   set_uniform(gl, program, "box_size", glm::vec3(space.size));
-  for (std::size_t i = 0; i < maps.size(); ++i)
+  int unit = grid_unit;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
     std::visit([&](const auto& map) { set_struct(gl, program, uniform_name(i), map); }, maps[i]);
+    if (std::holds_alternative<GridMap>(maps[i]))
+      set_uniform(gl, program, (uniform_name(i) + ".grid").c_str(), unit++);
+  }
 }
 
 } // namespace slicelens

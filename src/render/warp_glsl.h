@@ -13,7 +13,14 @@ namespace slicelens {
 /// chain_jacobian in box space, u = u_1 ∘ … ∘ u_n, and chain_magnification where all warps are LaMar's lens.
 EmbeddedFile warp_chain(const std::vector<WarpMap>& maps);
 
-/// Sets the uniforms that warp_chain declares, and `box_size`. The program must be in use.
+/// Texture unit of the first grid of displacements among the maps (render/grid_textures.h); the next ones
+/// follow. Those of Cohen's tables, which are never read beside a grid.
+inline constexpr int grid_unit = 12;
+/// Grids that a list of warps may hold: units of every driver.
+inline constexpr std::size_t max_grids = 4;
+
+/// Sets the uniforms that warp_chain declares, and `box_size`. The program must be in use. Grids are read
+/// from the units grid_unit and up, in the list's order.
 void set_warp_maps(const gl::Functions& gl, const gl::Program& program, const std::vector<WarpMap>& maps,
                    const BoxSpace& space);
 

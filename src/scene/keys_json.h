@@ -247,6 +247,19 @@ public:
     }
   }
 
+  void per_axis(const char* name, std::array<std::size_t, 3>& field, const char*, Range range) {
+    const Json* value = take(name);
+    if (value == nullptr)
+      return;
+    std::size_t all = 0;
+    if (value->is_array()) {
+      read(*value, full(name), field, range);
+    } else {
+      read(*value, full(name), all, range);
+      field.fill(all);
+    }
+  }
+
   /// One warp, or a list of warps.
   void warps(const char* name, std::vector<Warp>& field) {
     const Json* value = take(name);
@@ -338,6 +351,9 @@ struct Writer {
   void per_axis(const char* name, const glm::dvec3& field, const char*, Range) {
     object[name] = field.x == field.y && field.y == field.z ? Json(field.x) : written(field);
   }
+  void per_axis(const char* name, const std::array<std::size_t, 3>& field, const char*, Range) {
+    object[name] = field[0] == field[1] && field[1] == field[2] ? Json(field[0]) : written(field);
+  }
   void warps(const char* name, const std::vector<Warp>& field) {
     Json entries = Json::array();
     for (const Warp& warp : field) {
@@ -385,6 +401,9 @@ struct Lister {
     keys.emplace_back(prefix + name, help);
   }
   void per_axis(const char* name, const glm::dvec3&, const char* help, Range) {
+    keys.emplace_back(prefix + name, help);
+  }
+  void per_axis(const char* name, const std::array<std::size_t, 3>&, const char* help, Range) {
     keys.emplace_back(prefix + name, help);
   }
   void warps(const char* name, const std::vector<Warp>&) {

@@ -9,13 +9,11 @@ const std::vector<EnumName<ProjectionName>>& names_of(ProjectionName) {
 }
 
 const std::vector<EnumName<Pipeline>>& names_of(Pipeline) {
-  static const std::vector<EnumName<Pipeline>> names = {{Pipeline::slices, "slices"},
-                                                        {Pipeline::tessellated, "tessellated"},
-                                                        {Pipeline::axis, "axis"},
-                                                        {Pipeline::fragment, "fragment"},
-                                                        {Pipeline::fixed_function, "fixed-function"},
-                                                        {Pipeline::rays, "rays"},
-                                                        {Pipeline::reference, "reference"}};
+  static const std::vector<EnumName<Pipeline>> names = {
+      {Pipeline::slices, "slices"}, {Pipeline::tessellated, "tessellated"},
+      {Pipeline::axis, "axis"},     {Pipeline::fragment, "fragment"},
+      {Pipeline::grid, "grid"},     {Pipeline::fixed_function, "fixed-function"},
+      {Pipeline::rays, "rays"},     {Pipeline::reference, "reference"}};
   return names;
 }
 
@@ -40,13 +38,30 @@ const std::vector<EnumName<OpacityCorrection>>& names_of(OpacityCorrection) {
 
 const std::vector<EnumName<Shading>>& names_of(Shading) {
   static const std::vector<EnumName<Shading>> names = {{Shading::none, "none"},
-                                                       {Shading::diffuse, "diffuse"}};
+                                                       {Shading::diffuse, "diffuse"},
+                                                       {Shading::phong, "phong"},
+                                                       {Shading::tone, "tone"}};
   return names;
 }
 
 const std::vector<EnumName<Gradient>>& names_of(Gradient) {
   static const std::vector<EnumName<Gradient>> names = {{Gradient::forward, "forward"},
-                                                        {Gradient::central, "central"}};
+                                                        {Gradient::central, "central"},
+                                                        {Gradient::prefiltered, "prefiltered"},
+                                                        {Gradient::precomputed, "precomputed"}};
+  return names;
+}
+
+const std::vector<EnumName<GradientSpace>>& names_of(GradientSpace) {
+  static const std::vector<EnumName<GradientSpace>> names = {{GradientSpace::data, "data"},
+                                                             {GradientSpace::object, "object"}};
+  return names;
+}
+
+const std::vector<EnumName<GradientResolution>>& names_of(GradientResolution) {
+  static const std::vector<EnumName<GradientResolution>> names = {{GradientResolution::full, "full"},
+                                                                  {GradientResolution::half, "half"},
+                                                                  {GradientResolution::quarter, "quarter"}};
   return names;
 }
 
@@ -146,6 +161,12 @@ const std::vector<EnumName<Direction>>& names_of(Direction) {
   static const std::vector<EnumName<Direction>> names = {
       {Direction::x, "x"},        {Direction::y, "y"},        {Direction::z, "z"},
       {Direction::minus_x, "-x"}, {Direction::minus_y, "-y"}, {Direction::minus_z, "-z"}};
+  return names;
+}
+
+const std::vector<EnumName<PlaneStyle>>& names_of(PlaneStyle) {
+  static const std::vector<EnumName<PlaneStyle>> names = {{PlaneStyle::values, "values"},
+                                                          {PlaneStyle::transfer, "transfer"}};
   return names;
 }
 

@@ -6,6 +6,7 @@
 #include "warp/deformations.h"
 #include "warp/fisheye.h"
 #include "warp/lamar.h"
+#include "warp/map_grid.h"
 #include "warp/volume_lens.h"
 #include "warp/widgets.h"
 
@@ -55,7 +56,7 @@ std::optional<AxisRanges> focus_region(const std::vector<Warp>& warps);
 /// A warp's numbers for a box and a view: what its functions in shaders/warp/ take.
 using WarpMap =
     std::variant<LamarMap, BifocalMap, FisheyeMap, VolumeLensMap, ConnectedLensMap, ShiftMap, SineMap,
-                 TwistMap, BendMap, PulseMap, SpreaderMap, LeaferMap, PeelerMap, ExpanderMap>;
+                 TwistMap, BendMap, PulseMap, SpreaderMap, LeaferMap, PeelerMap, ExpanderMap, GridMap>;
 
 /// Throws UsageError where a lens cannot be seen from the view, and for a bend or a peeler that folds the
 /// box.

@@ -37,6 +37,7 @@ void list_pipelines() {
   row("tessellated", "slices cut into triangles that carry a lens, or any warp, at their corners (OpenGL)");
   row("axis", "slices whose warp and effects are read from a 1D texture for each axis (OpenGL)");
   row("fragment", "slices whose warps are evaluated at each fragment (OpenGL)");
+  row("grid", "slices whose warps are sampled into a 3D texture that each fragment looks up (OpenGL)");
   row("fixed-function", "tessellated, by the hardware path of 2001: no shaders, colours of 8 bits (OpenGL "
                         "compatibility profile)");
   row("rays", "a ray through each pixel in a fragment shader (OpenGL)");

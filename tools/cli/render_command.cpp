@@ -70,6 +70,12 @@ void print_verbose(const RenderResult& result, const PreparedScene& prepared, do
     std::fprintf(stderr, "lens       %zu angular and %zu radial segments\n", lens.ring.size(),
                  lens.radial_segments);
   }
+  if (prepared.map_grid) {
+    const MapGridError error = map_grid_error(prepared);
+    const auto& size = prepared.map_grid->grid->size;
+    std::fprintf(stderr, "grid       %zux%zux%zu nodes, off by at most %.3g voxels, rms %.3g\n", size[0],
+                 size[1], size[2], error.largest, error.rms);
+  }
   const RenderTimes& t = result.times;
   std::fprintf(stderr,
                "load       %8.3f s\ncodec      %8.3f s\ncontext    %8.3f s\nupload     %8.3f s\ncompile    "
