@@ -4,12 +4,10 @@
 #include "lib/composite.glsl"
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
-float gradient_value(vec3 t) { return displayed_value(t); }
-#include "lib/gradient.glsl"
 #include "gpu/warp.glsl"
 #include "gpu/focus_effects.glsl"
+#include "gpu/gradient.glsl"
 
-uniform vec3 voxel;
 uniform mat3 world_from_gradient;
 
 in vec3 object_coordinate;
@@ -30,10 +28,7 @@ void main() {
 #ifdef FOCUS_EFFECTS
   color = with_effects(color, effects_at(object_coordinate));
 #endif
-  vec3 gradient = central_gradient(t, voxel);
-#ifdef WARPED
-  gradient = displayed_gradient(gradient, object_coordinate);
-#endif
+  vec3 gradient = shown_gradient(t, object_coordinate);
   result = vec4(displayed_value(t), color.a, length(world_from_gradient * gradient), 1.0);
 #endif
 }

@@ -38,7 +38,7 @@ vec3 axis_texture_from_object(AxisTexels t, vec3 p) { return p + axis_mask(t) * 
 // Attenuation and highlight: the products of the three axes' values.
 vec2 axis_effects(AxisTexels t) { return t.x.ba * t.y.ba * t.z.ba; }
 
-#ifdef SHADED
+#ifdef GRADIENTS
 // Derivatives of offset and mask by the coordinate, as differences over one texel.
 vec2 axis_slope(sampler1D table, float x) {
   float count = float(textureSize(table, 0));

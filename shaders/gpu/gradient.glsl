@@ -1,9 +1,9 @@
-// The gradient of what is shown at a sample. GRADIENT_FORWARD, GRADIENT_CENTRAL, GRADIENT_PREFILTERED or
+// The gradient of what is shown at a sample. GRADIENTS with GRADIENT_FORWARD, GRADIENT_CENTRAL, GRADIENT_PREFILTERED or
 // GRADIENT_PRECOMPUTED; GRADIENT_IN_OBJECT_SPACE: differences of v∘u over one voxel of the displayed volume (Brunet, Nowak
 // and Gleicher 2006, eq. 1), for which each tap evaluates the map (pipeline `axis`: reads the tables). Otherwise they are
 // taken in the data and carried by the Jacobian. Taps outside the volume clamp to its edge, as the filter's do.
 
-#ifdef SHADED
+#ifdef GRADIENTS
 uniform vec3 voxel;  // step of differences in texture coordinates: one voxel, of the Gaussian copy where there is one
 
 #if defined(GRADIENT_PREFILTERED) || defined(GRADIENT_PRECOMPUTED)

@@ -31,6 +31,12 @@ gl::Program probe_program(const gl::Functions& gl, const PreparedScene& prepared
   std::vector<std::string> macros = common_macros(prepared);
   if (place)
     macros.emplace_back("PROBE_PLACE");
+  if (prepared.scene.render.shading == Shading::none) { // else gradients are those of the shading
+    macros.emplace_back("GRADIENTS");
+    macros.emplace_back("GRADIENT_CENTRAL");
+    if (prepared.gradient_space == GradientSpace::object)
+      macros.emplace_back("GRADIENT_IN_OBJECT_SPACE");
+  }
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "probe.vert", {});
   const auto fragment =
       shader_stage(GL_FRAGMENT_SHADER, "probe.frag", macros, {warp_chain(drawn_maps(prepared))});

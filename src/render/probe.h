@@ -29,7 +29,8 @@ struct ProbeSample {
   bool inside = false;   ///< there is data; the rest is 0 otherwise
   double value = 0;
   double opacity = 0;  ///< per reference length Δ₀, after attenuation
-  double gradient = 0; ///< length of the displayed volume's gradient, data units per world unit
+  double gradient = 0; ///< length of the displayed volume's gradient, data units per world unit, of the kind
+                       ///< that shades the scene, else of central differences
 };
 
 /// Most samples of one line.

@@ -23,6 +23,7 @@ void add_shading_macros(const PreparedScene& prepared, std::vector<std::string>&
   if (render.shading == Shading::none)
     return;
   macros.emplace_back("SHADED");
+  macros.emplace_back("GRADIENTS");
   macros.push_back("SHADING_" + upper_case(word(render.shading)));
   macros.push_back("GRADIENT_" + upper_case(word(render.gradient)));
   if (prepared.gradient_space == GradientSpace::object)
@@ -165,8 +166,7 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
   set_uniform(gl, program, "value_from_texel", scene.value_from_texel);
   set_uniform(gl, program, "transfer_from_value", scene.transfer_from_value);
   set_uniform(gl, program, "transfer_from_texel", scene.transfer_from_texel);
-  if (prepared.scene.render.shading != Shading::none)
-    set_shading_uniforms(gl, program, prepared, scene.gradients);
+  set_shading_uniforms(gl, program, prepared, scene.gradients);
   set_uniform(gl, program, "to_eye_axis", glm::vec3(-prepared.view.forward));
   set_uniform(gl, program, "distance_ratio",
               static_cast<float>(prepared.scene.render.opacity_correction == OpacityCorrection::none

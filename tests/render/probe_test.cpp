@@ -87,6 +87,48 @@ TEST_CASE("the first large gradient is found where the slabs meet, also behind a
   CHECK(samples[*hit].texture.y == Approx(0.4 + (samples[*hit].object.y - 0.3) * 2 / 3).margin(1e-5));
 }
 
+TEST_CASE("a probe's gradient is of the kind that shades the scene, and central without shading") {
+  const gl::Context context = test_context();
+  // The ramp rises by one over the box; the focus shows it stretched by 3/2 along x.
+  const PreparedScene scene = prepare_phantom(
+      R"({"volume":{"phantom":"ramp","size":[64,64,64]},"render":{"pipeline":"fragment","size":[64,64],"filter":"linear-exact"},
+      "warp":{"kind":"bifocal","focus":[[0.3,0.7],[0.4,0.6],[0.3,0.7]],"shown":[[0.2,0.8],[0.3,0.6],[0.3,0.7]]}})",
+      grey(0.1));
+  const double slope = 2.0 / 3 / (64 * smallest_spacing(scene.volume));
+  for (const std::string shading : {"none", "diffuse"}) {
+    for (const std::string gradient : {"forward", "central", "prefiltered", "precomputed"}) {
+      for (const std::string space : {"data", "object"}) {
+        if (gradient == "precomputed" && space == "object")
+          continue;
+        const PreparedScene other =
+            changed(scene, {"render.shading=" + shading, "render.gradient=" + gradient,
+                            "render.gradient_space=" + space});
+        const std::vector<ProbeSample> samples = samples_at(other, context, 32.5, 32.5);
+        INFO(shading << " " << gradient << " " << space);
+        // Halfs hold the differences of `precomputed`, 11 bits of the range.
+        CHECK(samples[samples.size() / 2].gradient == Approx(slope).epsilon(1e-3));
+      }
+    }
+  }
+  // Slabs meet in a step, which a Gaussian makes flatter.
+  const auto steepest = [&](const std::vector<std::string>& keys) {
+    double largest = 0;
+    for (const ProbeSample& sample :
+         samples_at(changed(scene_of("slabs", R"("title":"")", grey(0.1)), keys), context, 32.5, 32.5))
+      largest = std::max(largest, sample.gradient);
+    return largest;
+  };
+  const double central = steepest({});
+  CHECK(steepest({"render.gradient=prefiltered"}) == Approx(central)); // there is no copy without shading
+  // With weights w of the voxels the copy's voxels beside the step are ½ ± ½w₀, the next ones w₁ farther, so
+  // the difference of means over two voxels is w₀ + w₁ where it was 1.
+  double sum = 0;
+  for (int d = -4; d <= 4; ++d)
+    sum += std::exp(-0.5 * d * d);
+  CHECK(steepest({"render.gradient=prefiltered", "render.shading=diffuse"}) ==
+        Approx((1 + std::exp(-0.5)) / sum * central).epsilon(0.01));
+}
+
 TEST_CASE("summed opacity reaches one where the plain sum says so") {
   const gl::Context context = test_context();
   const PreparedScene scene = scene_of("box", R"("camera":{"azimuth":20,"elevation":10})", grey(0.05));
