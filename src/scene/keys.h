@@ -101,13 +101,13 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key("axis_texels", s.axis_texels,
             "texels of each 1D texture of pipeline axis, 16 to 4096 (none: one for each voxel)");
   visit.key("axis_filter", s.axis_filter, "how pipeline axis reads its 1D textures: linear or nearest");
-  visit.per_axis("grid_size", s.grid_size,
-                 "nodes of pipeline grid's 3D texture, 8 to 128; one number or one for each axis",
-                 Range::positive);
   visit.key("subdivision", s.subdivision,
             "cells along the longest edge of each slice in pipeline tessellated, 1 to 512; a list of lamar "
             "lenses has "
             "its own mesh");
+  visit.per_axis("grid_size", s.grid_size,
+                 "nodes of pipeline grid's 3D texture, 8 to 128; one number or one for each axis",
+                 Range::positive);
   visit.key("early_termination", s.early_termination, "rays stop at this opacity in (0,1]; 1: never",
             Range::unit);
   visit.key("background", s.background, "[r, g, b, a] in [0,1], not associated", Range::unit);

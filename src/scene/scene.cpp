@@ -161,15 +161,15 @@ void validate_warps(const Scene& scene) {
     throw UsageError("overlay.wireframe shows the triangles of a lens; pipeline '" + pipeline +
                      "' has none, give tessellated or fixed-function");
   }
+  if (scene.render.subdivision < 1 || scene.render.subdivision > max_subdivision) {
+    throw UsageError("render.subdivision must be from 1 to " + std::to_string(max_subdivision) + ", not " +
+                     std::to_string(scene.render.subdivision));
+  }
   for (const std::size_t nodes : scene.render.grid_size) {
     if (nodes < smallest_grid_size || nodes > max_grid_nodes) {
       throw UsageError("render.grid_size must be from " + std::to_string(smallest_grid_size) + " to " +
                        std::to_string(max_grid_nodes) + " nodes on every axis, not " + std::to_string(nodes));
     }
-  }
-  if (scene.render.subdivision < 1 || scene.render.subdivision > max_subdivision) {
-    throw UsageError("render.subdivision must be from 1 to " + std::to_string(max_subdivision) + ", not " +
-                     std::to_string(scene.render.subdivision));
   }
   if (scene.render.pipeline == Pipeline::axis)
     (void)make_axis_tables(scene.warp, {}, {0, 0, 0}); // refuses lists that have no tables

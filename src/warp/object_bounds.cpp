@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 namespace slicelens {
 
@@ -190,9 +191,14 @@ Bounds bounds_of(const PeelerMap& map, const Bounds& box) {
   return bounds;
 }
 
-/// The others keep the box.
+template <class Map, class... Maps>
+constexpr bool is_one_of = (std::is_same_v<Map, Maps> || ...);
+
+/// Maps that take every box which holds the volume's own onto itself, and a lens whose footprint the caller
+/// adds. A new map has to say what it does.
 template <class Map>
-Bounds bounds_of(const Map&, const Bounds& box) {
+requires is_one_of<Map, LamarMap, BifocalMap, FisheyeMap, VolumeLensMap, ConnectedLensMap, GridMap>
+    Bounds bounds_of(const Map&, const Bounds& box) {
   return box;
 }
 

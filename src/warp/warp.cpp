@@ -39,23 +39,23 @@ std::string kind_of(const Warp& warp) {
 }
 
 const std::vector<WarpInfo>& warp_infos() {
-  static const std::vector<std::string> deformed = {"fragment", "grid", "tessellated", "rays", "reference"};
+  static const std::vector<std::string> deformed = {"fragment", "tessellated", "grid", "rays", "reference"};
   static const std::vector<WarpInfo> infos = {
       {"lamar",
        "magnification lens with tessellated borders (LaMar, Hamann and Joy 2001)",
        {"tessellated", "fragment", "grid", "fixed-function", "rays", "reference"}},
       {"bifocal",
        "shows one box of the data in another, squeezes the rest (Cohen, Brodlie and Phillips 2008)",
-       {"axis", "fragment", "grid", "tessellated", "rays", "reference"}},
+       {"axis", "fragment", "tessellated", "grid", "rays", "reference"}},
       {"fisheye",
        "magnifies about a focal point, less and less towards the faces (Cohen, Brodlie and Phillips 2008)",
-       {"axis", "fragment", "grid", "tessellated", "rays", "reference"}},
+       {"axis", "fragment", "tessellated", "grid", "rays", "reference"}},
       {"volume-lens",
        "magnifies within a box fixed in the volume, and cuts at its faces (Cohen, Brodlie and Phillips 2008)",
-       {"axis", "fragment", "grid", "tessellated", "rays", "reference"}},
+       {"axis", "fragment", "tessellated", "grid", "rays", "reference"}},
       {"connected-lens",
        "the volume lens without the cut: continuous everywhere",
-       {"axis", "fragment", "grid", "tessellated", "rays", "reference"}},
+       {"axis", "fragment", "tessellated", "grid", "rays", "reference"}},
       {"shift", "a translation (Brunet, Nowak and Gleicher 2006)", deformed},
       {"sine", "a sine wave along one axis by another (Brunet, Nowak and Gleicher 2006)", deformed},
       {"twist", "turns the volume about an axis, more and more along it (Brunet, Nowak and Gleicher 2006)",
@@ -238,9 +238,6 @@ WarpGlsl glsl_of(const WarpMap& map) {
           [](const ConnectedLensMap&) -> WarpGlsl {
             return {axis_library, "warp/connected_lens.glsl", "ConnectedLensMap", "connected_lens"};
           },
-          [](const GridMap&) -> WarpGlsl {
-            return {"gpu/map_grid.glsl", "warp/grid.glsl", "GridMap", "grid"};
-          },
           [](const ShiftMap&) -> WarpGlsl {
             return {"", "warp/shift.glsl", "ShiftMap", "shift"};
           },
@@ -267,6 +264,9 @@ WarpGlsl glsl_of(const WarpMap& map) {
           },
           [](const ExpanderMap&) -> WarpGlsl {
             return {plane_library, "warp/expander.glsl", "ExpanderMap", "expander"};
+          },
+          [](const GridMap&) -> WarpGlsl {
+            return {"gpu/map_grid.glsl", "warp/grid.glsl", "GridMap", "grid"};
           },
       },
       map);
