@@ -139,7 +139,9 @@ void plane_keys(Visitor& visit, Settings& s) {
   visit.key("point", s.point, "a point of the plane, texture coordinates of the displayed volume");
   visit.key("normal", s.normal, "world vector");
   visit.key("style", s.style, "values (grey) or transfer (the transfer function's colours, opaque)");
-  visit.key("range", s.range, "[black, white] of the grey in data units (none: the data's range)");
+  visit.key("range", s.range,
+            "[black, white] of the grey in data units (none: the data's range); what lies below black is not "
+            "drawn");
 }
 
 template <class Visitor, class Settings>
