@@ -135,4 +135,28 @@ const std::vector<EnumName<Wireframe>>& names_of(Wireframe) {
   return names;
 }
 
+const std::vector<EnumName<LandmarkSpace>>& names_of(LandmarkSpace) {
+  static const std::vector<EnumName<LandmarkSpace>> names = {{LandmarkSpace::world, "world"},
+                                                             {LandmarkSpace::texture, "texture"}};
+  return names;
+}
+
+const std::vector<EnumName<LandmarkMethod>>& names_of(LandmarkMethod) {
+  static const std::vector<EnumName<LandmarkMethod>> names = {{LandmarkMethod::tps, "tps"},
+                                                              {LandmarkMethod::bspline, "bspline"}};
+  return names;
+}
+
+const std::vector<EnumName<FieldDirection>>& names_of(FieldDirection) {
+  static const std::vector<EnumName<FieldDirection>> names = {{FieldDirection::inverse, "inverse"},
+                                                              {FieldDirection::forward, "forward"}};
+  return names;
+}
+
+const std::vector<EnumName<FieldVectors>>& names_of(FieldVectors) {
+  static const std::vector<EnumName<FieldVectors>> names = {
+      {FieldVectors::automatic, "auto"}, {FieldVectors::lps, "lps"}, {FieldVectors::ras, "ras"}};
+  return names;
+}
+
 } // namespace slicelens

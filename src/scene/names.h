@@ -35,6 +35,10 @@ const std::vector<EnumName<ClipSpace>>& names_of(ClipSpace);
 const std::vector<EnumName<LensShape>>& names_of(LensShape);
 const std::vector<EnumName<Wireframe>>& names_of(Wireframe);
 const std::vector<EnumName<LensBorder>>& names_of(LensBorder);
+const std::vector<EnumName<LandmarkSpace>>& names_of(LandmarkSpace);
+const std::vector<EnumName<LandmarkMethod>>& names_of(LandmarkMethod);
+const std::vector<EnumName<FieldDirection>>& names_of(FieldDirection);
+const std::vector<EnumName<FieldVectors>>& names_of(FieldVectors);
 
 /// The word of an enumerator.
 template <class Enum>

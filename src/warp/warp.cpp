@@ -23,6 +23,8 @@ std::string kind_of(const Warp& warp) {
                         [](const Fisheye&) { return "fisheye"; },
                         [](const VolumeLens&) { return "volume-lens"; },
                         [](const ConnectedLens&) { return "connected-lens"; },
+                        [](const Landmarks&) { return "landmarks"; },
+                        [](const Field&) { return "field"; },
                     },
                     warp);
 }
@@ -44,6 +46,12 @@ const std::vector<WarpInfo>& warp_infos() {
       {"connected-lens",
        "the volume lens without the cut: continuous everywhere",
        {"axis", "fragment", "grid", "rays", "reference"}},
+      {"landmarks",
+       "carries points of the data to given ones, by a spline between (Brunet, Nowak and Gleicher 2006)",
+       {"fragment", "grid", "rays", "reference"}},
+      {"field",
+       "a displacement field read from a file, either way round (Brunet, Nowak and Gleicher 2006)",
+       {"fragment", "grid", "rays", "reference"}},
   };
   return infos;
 }
@@ -57,8 +65,8 @@ const WarpInfo& info_of(const Warp& warp) {
 }
 
 std::optional<Warp> make_warp(const std::string& kind) {
-  for (const Warp& warp :
-       std::vector<Warp>{LamarLens{}, Bifocal{}, Fisheye{}, VolumeLens{}, ConnectedLens{}}) {
+  for (const Warp& warp : std::vector<Warp>{LamarLens{}, Bifocal{}, Fisheye{}, VolumeLens{}, ConnectedLens{},
+                                            Landmarks{}, Field{}}) {
     if (kind_of(warp) == kind)
       return warp;
   }
@@ -69,16 +77,20 @@ void validate(const Warp& warp) {
   std::visit([](const auto& value) { validate(value); }, warp);
 }
 
-bool is_separable(const Warp& warp) { return !std::holds_alternative<LamarLens>(warp); }
+bool is_separable(const Warp& warp) {
+  return std::holds_alternative<Bifocal>(warp) || std::holds_alternative<Fisheye>(warp) ||
+         std::holds_alternative<VolumeLens>(warp) || std::holds_alternative<ConnectedLens>(warp);
+}
 
 std::optional<AxisRanges> focus_region(const Warp& warp) {
   using Result = std::optional<AxisRanges>;
   return std::visit(
       Overloaded{
-          [](const LamarLens&) { return Result(); },
           [](const Bifocal& bifocal) { return Result(bifocal.shown); },
           [](const Fisheye& fisheye) { return Result(ranges_of(fisheye.center, fisheye.center)); },
-          [](const auto& lens) { return Result(focus_of(lens.box)); },
+          [](const VolumeLens& lens) { return Result(focus_of(lens.box)); },
+          [](const ConnectedLens& lens) { return Result(focus_of(lens.box)); },
+          [](const auto&) { return Result(); },
       },
       warp);
 }
@@ -100,6 +112,8 @@ WarpMap map_of(const Warp& warp, const BoxSpace& space, const WarpView& view) {
           [&](const Fisheye& fisheye) -> WarpMap { return fisheye_map(fisheye, space); },
           [&](const VolumeLens& lens) -> WarpMap { return volume_lens_map(lens.box, space); },
           [&](const ConnectedLens& lens) -> WarpMap { return connected_lens_map(lens.box, space); },
+          [&](const Landmarks& landmarks) -> WarpMap { return landmark_map(landmarks, space); },
+          [&](const Field& field) -> WarpMap { return field_map(field, space); },
       },
       warp);
 }

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "warp/bifocal.h"
+#include "warp/field.h"
 #include "warp/fisheye.h"
 #include "warp/lamar.h"
+#include "warp/landmarks.h"
 #include "warp/map_grid.h"
 #include "warp/volume_lens.h"
 
@@ -16,7 +18,7 @@
 namespace slicelens {
 
 /// One entry of a scene's `warp`.
-using Warp = std::variant<LamarLens, Bifocal, Fisheye, VolumeLens, ConnectedLens>;
+using Warp = std::variant<LamarLens, Bifocal, Fisheye, VolumeLens, ConnectedLens, Landmarks, Field>;
 
 /// The word of `warp.kind`.
 std::string kind_of(const Warp& warp);
@@ -31,7 +33,8 @@ struct WarpInfo {
 const std::vector<WarpInfo>& warp_infos();
 const WarpInfo& info_of(const Warp& warp);
 
-/// A warp of that kind with its defaults, or nothing.
+/// A warp of that kind with its defaults, or nothing. `landmarks` and `field` have no valid ones: they need
+/// points or a file.
 std::optional<Warp> make_warp(const std::string& kind);
 
 /// Throws UsageError naming warp and key for parameters that make no warp.
@@ -50,7 +53,8 @@ std::optional<AxisRanges> focus_region(const std::vector<Warp>& warps);
 /// A warp's numbers for a box and a view: what its functions in shaders/warp/ take.
 using WarpMap = std::variant<LamarMap, BifocalMap, FisheyeMap, VolumeLensMap, ConnectedLensMap, GridMap>;
 
-/// Throws UsageError where a lens cannot be seen from the view.
+/// Throws UsageError where a lens cannot be seen from the view, and where landmarks or a field make no map.
+/// Those two take the time of solving and sampling; what they give does not depend on the view.
 WarpMap map_of(const Warp& warp, const BoxSpace& space, const WarpView& view);
 
 /// The inverse map and its derivative at p, box space, in double precision; the forward map at u.

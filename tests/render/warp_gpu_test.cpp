@@ -190,7 +190,7 @@ TEST_CASE("a chain of all warps on the GPU is the CPU's within 1e-5") {
     space = box_space(box);
     std::vector<WarpMap> maps;
     for (const WarpInfo& info : warp_infos()) {
-      const Warp warp = make_warp(info.kind).value();
+      const Warp warp = warp_cases::default_warp(info.kind, space);
       maps.push_back(map_of(warp, space, warp_view(lens_cases::random_view(box), box)));
     }
     return maps;
