@@ -158,14 +158,14 @@ TEST_CASE("a forward field is inverted: round trips within a thousandth of the v
   CHECK(report.refined_rms < 0.3 * report.scattered_rms);
   CHECK(report.refined_largest < 0.03); // 30 units are the longest edge
   CHECK(report.smallest_determinant > 0.2);
-  // Points of the data, well inside, shown where the field says.
+  // Points of the data, well inside, shown where the field says: the file is trilinear between voxels of up
+  // to 4, off by at most 4²/8 of second derivatives of 1.5/25 on three axes.
   const GridMap map = field_map(field, space);
   for (int i = 0; i < 27; ++i) {
     const glm::dvec3 x =
         world_from_texture(data_box(), glm::dvec3(0.25) + 0.25 * glm::dvec3(i % 3, i / 3 % 3, i / 9));
     const glm::dvec3 shown = in_box(space, x + waves(x));
-    CHECK(space.longest * glm::length(texture_from_object(map, shown) - in_box(space, x)) <
-          0.1); // trilinear file
+    CHECK(space.longest * glm::length(texture_from_object(map, shown) - in_box(space, x)) < 0.25);
   }
 }
 
