@@ -7,11 +7,15 @@
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
 #include "gpu/classified.glsl"
-#include "lib/gradient.glsl"
 #include "lib/shade.glsl"
 #include "gpu/warp.glsl"
 #include "gpu/focus_effects.glsl"
+#include "gpu/gradient.glsl"
 #include "gpu/light.glsl"
+#ifdef CUT_PLANES
+#include "gpu/plane.glsl"
+uniform CutPlane planes[CUT_PLANES];
+#endif
 
 uniform RayFrame frame;
 uniform float delta;             // Δ, world units
@@ -62,7 +66,7 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
   return gathered + vec4(sample_color.a * distance_ratio);
 #endif
 #else
-#ifdef SHADING_DIFFUSE
+#ifdef SHADED
   sample_color.rgb = shade(sample_color.rgb, t, p, to_eye);
 #endif
 #ifdef FOCUS_EFFECTS
@@ -77,6 +81,30 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #endif
 }
 
+#ifdef CUT_PLANES
+// The nearest cutting plane on the ray: its distance (beyond the interval: none) and colour. Planes are not cut by clipping planes.
+vec4 nearest_plane(PixelRay ray, vec2 interval, inout float nearest) {
+  vec4 color = vec4(0.0);
+  for (int i = 0; i < CUT_PLANES; ++i) {
+    float slope = dot(planes[i].place.xyz, ray.direction);
+    float s = -(dot(planes[i].place.xyz, ray.origin) + planes[i].place.w) / (slope == 0.0 ? 1e-30 : slope);
+    vec3 p = ray.origin + s * ray.direction;
+#ifdef WARPED
+    vec3 t = texture_from_object(p);
+    bool inside = in_volume(t);
+#else
+    vec3 t = p;
+    bool inside = true;
+#endif
+    if (inside && s >= interval.x && s <= interval.y && s < nearest) {
+      nearest = s;
+      color = vec4(plane_color(planes[i], t), 1.0);
+    }
+  }
+  return color;
+}
+#endif
+
 void main() {
 #ifdef PERSPECTIVE
   PixelRay ray = ray_from_pixel(frame, true, place.x, place.y);
@@ -86,6 +114,11 @@ void main() {
   vec3 to_eye = to_eye_axis;
 #endif
   vec2 interval = hit_box(ray, object_low, object_high);
+#ifdef CUT_PLANES
+  float stop = 1e30;
+  vec4 behind = nearest_plane(ray, interval, stop);
+  interval.y = min(interval.y, stop);
+#endif
   for (int i = 0; i < clip_count; ++i) interval = clip_interval(interval, ray, clip_planes[i]);
 #if defined(MODE_MIP)
   vec4 gathered = vec4(-3.0e38, 0.0, 0.0, 0.0);
@@ -113,6 +146,9 @@ void main() {
   } else {
     gathered = vec4(0.0);
   }
+#endif
+#ifdef CUT_PLANES
+  gathered = under(gathered, behind);
 #endif
   result = gathered;
 }

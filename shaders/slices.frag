@@ -12,11 +12,11 @@
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
 #include "gpu/classified.glsl"
-#include "lib/gradient.glsl"
 #include "lib/shade.glsl"
 #include "gpu/warp.glsl"
 #include "gpu/axis_tables.glsl"
 #include "gpu/focus_effects.glsl"
+#include "gpu/gradient.glsl"
 #include "gpu/light.glsl"
 
 uniform float distance_ratio;     // Δ/Δ₀ on the view axis
@@ -111,7 +111,7 @@ void main() {
   result = vec4(weight);
 #endif
 #else
-#ifdef SHADING_DIFFUSE
+#ifdef SHADED
   sample_color.rgb = shade(sample_color.rgb, texture_coordinate, object_coordinate, direction_to_eye(object_coordinate));
 #endif
 #ifdef FOCUS_EFFECTS

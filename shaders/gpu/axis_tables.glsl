@@ -20,7 +20,9 @@ AxisTexels fetch_axis_tables(vec3 p) {
   return AxisTexels(axis_texel(axis_table_x, p.x), axis_texel(axis_table_y, p.y), axis_texel(axis_table_z, p.z));
 }
 
-#ifdef AXIS_WEIGHTS
+#if defined(AXIS_UNMASKED)
+float axis_mask(AxisTexels t) { return 1.0; }  // all masks of all tables are
+#elif defined(AXIS_WEIGHTS)
 float axis_mask(AxisTexels t) { return t.x.g * t.y.g * t.z.g; }
 #else
 // Masks are 0 or 1, and linear filtering crosses one half just where the nearest texel changes: the nearest mask without a
@@ -36,7 +38,7 @@ vec3 axis_texture_from_object(AxisTexels t, vec3 p) { return p + axis_mask(t) * 
 // Attenuation and highlight: the products of the three axes' values.
 vec2 axis_effects(AxisTexels t) { return t.x.ba * t.y.ba * t.z.ba; }
 
-#ifdef SHADING_DIFFUSE
+#ifdef GRADIENTS
 // Derivatives of offset and mask by the coordinate, as differences over one texel.
 vec2 axis_slope(sampler1D table, float x) {
   float count = float(textureSize(table, 0));

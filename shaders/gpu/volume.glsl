@@ -23,8 +23,8 @@ vec3 cubic_axis(float t, float size) {
 }
 #endif
 
-// What the texture holds at t: values in its own unit, which filtering leaves alone.
-vec4 filtered_texels(sampler3D voxels, vec3 t) {
+// Linear between eight texels of a texture that filters linearly, or with FILTER_LINEAR_EXACT of any.
+vec4 linear_texels(sampler3D voxels, vec3 t) {
 #ifdef FILTER_LINEAR_EXACT
   ivec3 size = textureSize(voxels, 0);
   vec3 position = clamp(t * vec3(size) - 0.5, vec3(-0.5), vec3(size) - 0.5);
@@ -37,7 +37,14 @@ vec4 filtered_texels(sampler3D voxels, vec3 t) {
   vec4 v01 = mix(texel_at(voxels, i + ivec3(0, 0, 1), last), texel_at(voxels, i + ivec3(1, 0, 1), last), f.x);
   vec4 v11 = mix(texel_at(voxels, i + ivec3(0, 1, 1), last), texel_at(voxels, i + ivec3(1, 1, 1), last), f.x);
   return mix(mix(v00, v10, f.y), mix(v01, v11, f.y), f.z);
-#elif defined(FILTER_CUBIC)
+#else
+  return textureLod(voxels, t, 0.0);
+#endif
+}
+
+// What the texture holds at t: values in its own unit, which filtering leaves alone.
+vec4 filtered_texels(sampler3D voxels, vec3 t) {
+#if defined(FILTER_CUBIC)
   vec3 size = vec3(textureSize(voxels, 0));
   vec3 x = cubic_axis(t.x, size.x);
   vec3 y = cubic_axis(t.y, size.y);
@@ -50,7 +57,7 @@ vec4 filtered_texels(sampler3D voxels, vec3 t) {
 #undef FETCH
   return mix(mix(v00, v10, y.z), mix(v01, v11, y.z), z.z);
 #else
-  return textureLod(voxels, t, 0.0);
+  return linear_texels(voxels, t);
 #endif
 }
 
@@ -64,7 +71,6 @@ uniform sampler3D volume_texture;
 float sample_texel(vec3 t) { return filtered_texel(volume_texture, t); }
 #endif
 
-// The data at a point, as texel and as value. Gradients (lib/gradient.glsl) are taken in the data and carried through a
-// lens by its Jacobian (gpu/warp.glsl), so points are the data's own here.
+// The data at a point, as texel and as value; points are the data's own.
 float displayed_texel(vec3 t) { return sample_texel(t); }
 float displayed_value(vec3 t) { return value_from_texel.x * displayed_texel(t) + value_from_texel.y; }

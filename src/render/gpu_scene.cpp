@@ -197,6 +197,7 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
     coding = {1, volume.type == ScalarType::f32 ? 0 : volume.min};
     upload_all<float>(gl, prepared, GL_R32F, coding, scene, progress);
   }
+  scene.gradients = upload_gradients(gl, prepared, progress);
   scene.value_from_texel = glm::vec2(coding.scale * levels, coding.offset);
   scene.texture = word(scene.format);
   scene.transfer = upload_transfer(gl, prepared, scene);
@@ -205,6 +206,7 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
   scene.whole_bytes = voxel_count(volume) * texel_bytes + transfer_bytes;
   scene.bytes = is_bricked(prepared.scene.render) ? brick_voxels(scene.plan) * texel_bytes + transfer_bytes
                                                   : scene.whole_bytes;
+  scene.bytes += scene.gradients.bytes;
   scene.bytes += grid_bytes(maps);
   return scene;
 }

@@ -4,6 +4,7 @@
 #include "gl/texture.h"
 #include "render/axis_textures.h"
 #include "render/bricks.h"
+#include "render/gradient_texture.h"
 #include "render/prepare.h"
 
 namespace slicelens {
@@ -22,6 +23,7 @@ struct GpuScene {
   BrickPlan plan;              ///< where the volume is bricked (render.tiles, render.levels)
   std::vector<gl::Texture> bricks; ///< of plan.bricks; `volume` is empty then
   std::size_t transfer_texels = 0;
+  GradientTexture gradients;      ///< for shading
   AxisTextures axis;              ///< empty but under pipeline `axis`
   std::vector<gl::Texture> grids; ///< of the maps that are held in grids, in their order
 };

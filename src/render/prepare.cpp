@@ -175,6 +175,7 @@ void prepare_again(PreparedScene& prepared) {
     auto& planes = plane.space == ClipSpace::texture ? prepared.data_clip : prepared.object_clip;
     planes.push_back(pull_back(world, prepared.box.world_from_texture));
   }
+  prepared.gradient_space = gradient_space_of(scene);
   prepare_warps(prepared);
   prepare_effects(prepared);
   if (is_bricked(scene.render))

@@ -38,14 +38,15 @@ struct PreparedScene {
   std::vector<Plane> object_clip; ///< half-spaces of the displayed volume, in its texture coordinates
   BoxSpace space;
   WarpView warp_view;
-  std::vector<WarpMap> maps;            ///< the scene's warps for this view, in forward order
-  std::vector<LensTessellation> lenses; ///< those of kind `lamar`
-  FocusEffects effects{};               ///< highlight and attenuation for this view
-  AxisTables tables;                    ///< pipeline `axis` only
-  std::vector<HeldWarp> held;           ///< of the landmarks and fields among the warps
-  std::optional<GridMap> map_grid;      ///< pipeline `grid` only: all of `maps` in one
-  double log_zoom = 0;                  ///< ln of their largest zoom, for render.levels; 0 without a lens
-  std::vector<Volume> pyramid;          ///< levels 1, 2 … of render.levels (volume/pyramid.h)
+  std::vector<WarpMap> maps;                          ///< the scene's warps for this view, in forward order
+  std::vector<LensTessellation> lenses;               ///< those of kind `lamar`
+  FocusEffects effects{};                             ///< highlight and attenuation for this view
+  AxisTables tables;                                  ///< pipeline `axis` only
+  std::vector<HeldWarp> held;                         ///< of the landmarks and fields among the warps
+  std::optional<GridMap> map_grid;                    ///< pipeline `grid` only: all of `maps` in one
+  GradientSpace gradient_space = GradientSpace::data; ///< where the differences of shading are taken
+  double log_zoom = 0;         ///< ln of their largest zoom, for render.levels; 0 without a lens
+  std::vector<Volume> pyramid; ///< levels 1, 2 … of render.levels (volume/pyramid.h)
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};

@@ -3,6 +3,7 @@
 #include "gl/check.h"
 #include "gl/state.h"
 #include "gl/timer.h"
+#include "render/cut_planes.h"
 #include "render/ray_frame.h"
 #include "render/shaders.h"
 #include "render/uniforms.h"
@@ -38,6 +39,9 @@ void set_ray_uniforms(const gl::Functions& gl, const gl::Program& program, const
   set_uniform(gl, program, "clip_count", static_cast<int>(planes.size()));
   if (!planes.empty())
     set_uniform(gl, program, "clip_planes", std::span<const glm::vec4>(planes));
+  const std::vector<CutPlane> shown = cut_planes(prepared);
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    set_plane(gl, program, "planes[" + std::to_string(i) + "]", shown[i]);
 }
 
 } // namespace
@@ -47,8 +51,11 @@ RayRenderer::RayRenderer(const gl::Functions& gl, const PreparedScene& prepared)
   std::vector<std::string> macros = common_macros(prepared);
   if (prepared.scene.render.early_termination < 1)
     macros.emplace_back("EARLY_TERMINATION");
+  if (!prepared.scene.planes.empty())
+    macros.push_back("CUT_PLANES " + std::to_string(prepared.scene.planes.size()));
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});
-  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "rays.frag", macros, {warp_chain(prepared.maps)});
+  const auto fragment =
+      shader_stage(GL_FRAGMENT_SHADER, "rays.frag", macros, {warp_chain(drawn_maps(prepared))});
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   program_ = gl::make_program(gl, stages);
   no_vertices_ = gl::make_vertex_array(gl);

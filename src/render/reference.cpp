@@ -1,9 +1,13 @@
 #include "render/reference.h"
 
+#include "render/cut_planes.h"
+#include "render/gradient_texture.h"
 #include "render/level_values.h"
 #include "render/pre_classification.h"
 #include "render/ray_frame.h"
+#include "render/smooth_copy.h"
 #include "render/voxel_filter.h"
+#include "volume/gradient_volume.h"
 
 #include <tbb/parallel_for.h>
 
@@ -37,6 +41,7 @@ struct Tracer : SharedFunctions {
   const PreparedScene& prepared;
   const T* voxels;
   const std::byte* classified; ///< RGBA of 8 bits under classification `pre`, else null
+  const SmoothCopy* smooth;    ///< of gradient `prefiltered`, else null
   ivec3 dims;
   vec3 voxel;
   dmat3 world_from_gradient;
@@ -44,16 +49,17 @@ struct Tracer : SharedFunctions {
   real level = 0; ///< that the sample reads, with render.levels
   Correction correction;
   real ratio;
+  std::vector<CutPlane> planes;
 
-  Tracer(const PreparedScene& scene, const std::byte* classified_voxels)
+  Tracer(const PreparedScene& scene, const std::byte* classified_voxels, const SmoothCopy* smooth_voxels)
       : prepared(scene), voxels(reinterpret_cast<const T*>(scene.volume.voxels.data())),
-        classified(classified_voxels), dims(scene.volume.dims[0], scene.volume.dims[1], scene.volume.dims[2]),
-        voxel(1.0 / vec3(dims)),
+        classified(classified_voxels), smooth(smooth_voxels),
+        dims(scene.volume.dims[0], scene.volume.dims[1], scene.volume.dims[2]), voxel(1.0 / vec3(dims)),
         world_from_gradient(glm::transpose(glm::inverse(dmat3(scene.box.world_from_texture)))),
         filter(scene.scene.render.filter), correction(correction_of(scene)),
         ratio(scene.scene.render.opacity_correction == OpacityCorrection::none ? 1
-                                                                               : axis_distance_ratio(scene)) {
-  }
+                                                                               : axis_distance_ratio(scene)),
+        planes(cut_planes(scene)) {}
 
   std::size_t voxel_index(int i, int j, int k) const {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(dims.y) + static_cast<std::size_t>(j)) *
@@ -96,16 +102,57 @@ struct Tracer : SharedFunctions {
     });
   }
 
+  /// What differences are taken of, at p in the data or, in object space, in the displayed volume.
+  real gradient_value(vec3 p) const {
+    const vec3 t = prepared.gradient_space == GradientSpace::object ? data_point(p) : p;
+    return smooth != nullptr ? smooth->value(t) : displayed_value(t);
+  }
+
 #include "lib/gradient.glsl"
 
+  /// Derivatives of the data at voxel (i, j, k) by texture coordinates, by central differences.
+  vec3 voxel_gradient(int i, int j, int k) const {
+    const auto difference = [&](ivec3 step) {
+      const ivec3 above = min(ivec3(i, j, k) + step, dims - 1);
+      const ivec3 below = max(ivec3(i, j, k) - step, ivec3(0));
+      return voxel_value(above.x, above.y, above.z) - voxel_value(below.x, below.y, below.z);
+    };
+    return vec3(difference({1, 0, 0}), difference({0, 1, 0}), difference({0, 0, 1})) * vec3(dims) * 0.5;
+  }
+
+  /// Of the displayed volume by its texture coordinates, at p, which shows t.
+  vec3 shown_gradient(vec3 t, vec3 p) {
+    const bool in_object_space = prepared.gradient_space == GradientSpace::object;
+    const vec3 at = in_object_space ? p : t;
+    vec3 gradient;
+    switch (prepared.scene.render.gradient) {
+    case Gradient::forward:
+      gradient = forward_gradient(at, voxel * std::exp2(level));
+      break;
+    case Gradient::central:
+      gradient = central_gradient(at, voxel * std::exp2(level));
+      break;
+    case Gradient::prefiltered:
+      gradient = central_gradient(at, 1.0 / vec3(smooth->dims));
+      break;
+    case Gradient::precomputed:
+      gradient = filtered(Filter::linear, dims, t * vec3(dims),
+                          [&](int i, int j, int k) { return voxel_gradient(i, j, k); });
+      break;
+    }
+    return in_object_space ? gradient : displayed_gradient(gradient, p);
+  }
+
   vec3 shaded(vec3 color, vec3 t, vec3 p, vec3 to_eye) {
-    const vec3 h = voxel * std::exp2(level);
-    const vec3 by_texture =
-        prepared.scene.render.gradient == Gradient::forward ? forward_gradient(t, h) : central_gradient(t, h);
+    const vec3 gradient = world_from_gradient * shown_gradient(t, p);
+    const vec3 to_light = light_direction(prepared, to_eye);
     const LightSettings& light = prepared.scene.light;
-    return color * this->diffuse_factor(world_from_gradient * displayed_gradient(by_texture, p),
-                                        light_direction(prepared, to_eye), light.ambient, light.diffuse,
-                                        light.two_sided);
+    if (prepared.scene.render.shading == Shading::tone)
+      return this->tone_color(color, gradient, to_light, light.cool, light.warm);
+    if (prepared.scene.render.shading == Shading::phong)
+      return this->phong_color(color, gradient, to_light, to_eye, light.ambient, light.diffuse,
+                               light.specular, light.power, light.two_sided);
+    return color * this->diffuse_factor(gradient, to_light, light.ambient, light.diffuse, light.two_sided);
   }
 
   /// u = u_1 ∘ … ∘ u_n (docs/pipeline.md).
@@ -163,7 +210,7 @@ struct Tracer : SharedFunctions {
       return gathered + this->associated(vec3(grey), grey.w);
     }
     vec3 rgb(color);
-    if (prepared.scene.render.shading == Shading::diffuse && color.w > 0)
+    if (prepared.scene.render.shading != Shading::none && color.w > 0)
       rgb = shaded(rgb, t, p, to_eye);
     color = with_effects(vec4(rgb, color.w), focus_at(p));
     rgb = vec3(color);
@@ -171,9 +218,28 @@ struct Tracer : SharedFunctions {
     return this->under(gathered, this->associated(rgb, alpha));
   }
 
+  /// The nearest cutting plane on the ray within the interval, which ends there, and its opaque colour.
+  vec4 stop_at_plane(const SharedFunctions::PixelRay& ray, vec2& interval) const {
+    vec4 color(0);
+    for (const CutPlane& plane : planes) {
+      const real s = -signed_value(plane.place, ray.origin) / dot(plane.place.normal, ray.direction);
+      const vec3 t = data_point(ray.origin + s * ray.direction);
+      const bool inside = all(greaterThanEqual(t, vec3(0))) && all(lessThanEqual(t, vec3(1)));
+      const bool warped = is_warped(prepared);
+      if (!(s >= interval.x && s <= interval.y) || (warped && !inside))
+        continue;
+      interval.y = s;
+      const real value = displayed_value(t);
+      const vec3 grey(std::clamp(plane.grey.x * value + plane.grey.y, 0.0, 1.0));
+      color = vec4(plane.classified ? vec3(evaluate(prepared.transfer, value)) : grey, 1);
+    }
+    return color;
+  }
+
   vec4 trace(const SharedFunctions::RayFrame& frame, bool perspective, real x, real y) {
     const SharedFunctions::PixelRay ray = this->ray_from_pixel(frame, perspective, x, y);
     vec2 interval = this->hit_box(ray, prepared.object_low, prepared.object_high);
+    const vec4 behind = planes.empty() ? vec4(0) : stop_at_plane(ray, interval);
     const auto cut = [&](const Plane& plane) {
       interval = this->clip_interval(interval, ray, vec4(plane.normal, -plane.offset));
     };
@@ -183,7 +249,7 @@ struct Tracer : SharedFunctions {
     const bool mip = prepared.scene.render.mode == Mode::mip;
     vec4 gathered = mip ? vec4(-std::numeric_limits<real>::infinity(), 0, 0, 0) : vec4(0);
     if (interval.x > interval.y)
-      return vec4(0);
+      return behind;
     const vec3 to_eye = perspective ? -normalize(dmat3(prepared.box.world_from_texture) * ray.direction)
                                     : -prepared.view.forward;
     const real delta = prepared.spacing;
@@ -197,7 +263,7 @@ struct Tracer : SharedFunctions {
         break;
     }
     if (!mip)
-      return gathered;
+      return planes.empty() ? gathered : this->under(gathered, behind);
     if (gathered.w == 0)
       return vec4(0);
     const vec4 color = with_effects(evaluate(prepared.transfer, gathered.x), vec2(gathered.y, gathered.z));
@@ -211,6 +277,18 @@ SharedFunctions::RayFrame shared_frame(const PreparedScene& prepared) {
           values.half_width, values.half_height, values.anchor};
 }
 
+/// The Gaussian copy, where gradients are taken from one.
+template <class T>
+std::optional<SmoothCopy> smooth_voxels(const PreparedScene& prepared) {
+  const RenderSettings& render = prepared.scene.render;
+  if (render.shading == Shading::none || render.gradient != Gradient::prefiltered)
+    return std::nullopt;
+  const Tracer<T> voxels(prepared, nullptr, nullptr);
+  const auto dims = reduced_dims(prepared.volume.dims, reduction_of(render.gradient_resolution));
+  return smooth_copy(voxels.dims, ivec3(dims[0], dims[1], dims[2]), render.gradient_sigma,
+                     [&](int i, int j, int k) { return voxels.voxel_value(i, j, k); });
+}
+
 template <class T>
 void trace_all(const PreparedScene& prepared, Image& image, const Progress& progress) {
   const View& view = prepared.view;
@@ -219,10 +297,11 @@ void trace_all(const PreparedScene& prepared, Image& image, const Progress& prog
   if (prepared.scene.render.classification == Classification::pre)
     classified = classify_voxels(prepared);
   const std::byte* colors = classified.empty() ? nullptr : classified.data();
+  const std::optional<SmoothCopy> smooth = smooth_voxels<T>(prepared);
   std::atomic<int> done = 0;
   std::mutex reporting;
   tbb::parallel_for(0, view.height, [&](int y) {
-    Tracer<T> tracer(prepared, colors);
+    Tracer<T> tracer(prepared, colors, smooth ? &*smooth : nullptr);
     for (int x = 0; x < view.width; ++x) {
       const vec4 color = tracer.trace(frame, view.projection == Projection::perspective,
                                       2 * (x + 0.5) / view.width - 1, 1 - 2 * (y + 0.5) / view.height);

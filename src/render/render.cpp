@@ -54,8 +54,10 @@ void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Pr
   const RenderSettings& settings = prepared.scene.render;
   Stopwatch watch;
   const GpuScene scene = upload(gl, prepared, progress);
-  const gl::Target target =
+  gl::Target target =
       gl::make_target(gl, prepared.view.width, prepared.view.height, texture_format(settings.target));
+  if (!prepared.scene.planes.empty())
+    gl::attach_depth(gl, target);
   gl::finish(gl);
   result.times.upload = watch.lap();
   const auto draw_slices = [&](auto renderer) {

@@ -63,6 +63,8 @@ SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepa
   const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "slices.frag", common_macros(prepared), generated);
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   program_ = gl::make_program(gl, stages);
+  if (!prepared.scene.planes.empty())
+    planes_.emplace(gl, prepared);
   vertex_array_ = gl::make_vertex_array(gl);
   no_vertices_ = gl::make_vertex_array(gl);
   if (prepared.scene.render.mode == Mode::mip) {
@@ -136,6 +138,8 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   gl.ClearColor(maxima_ && target.format != GL_RGBA8 ? -1.0F : 0.0F, 0, 0, 0);
   gl.Clear(GL_COLOR_BUFFER_BIT);
 
+  if (planes_)
+    draw_planes_first(prepared, scene);
   gl.UseProgram(program_.name());
   set_common_uniforms(gl, program_, prepared, scene);
   set_uniform(gl, program_, "clip_from_texture", glm::mat4(clip_from_texture(prepared)));
@@ -151,9 +155,34 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
     set_blending(gl, render);
   gl.BindVertexArray(vertex_array_.name());
   draw_stack(scene, progress);
+  if (planes_)
+    draw_planes_last(prepared, scene);
   if (maxima_)
     classify_maxima(prepared, scene, target);
   gl::check_errors(gl, "drawing the slices");
+}
+
+void SliceRenderer::draw_planes_first(const PreparedScene& prepared, const GpuScene& scene) const {
+  const gl::Functions& gl = *gl_;
+  const bool color = prepared.scene.render.order == Order::back_to_front;
+  gl.Disable(GL_BLEND);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_LESS);
+  gl.ClearDepth(1);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  const GLboolean write = color ? GL_TRUE : GL_FALSE;
+  gl.ColorMask(write, write, write, write);
+  planes_->draw(prepared, scene);
+  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.DepthMask(GL_FALSE);
+}
+
+void SliceRenderer::draw_planes_last(const PreparedScene& prepared, const GpuScene& scene) const {
+  if (prepared.scene.render.order == Order::back_to_front)
+    return;
+  gl_->DepthFunc(GL_EQUAL);
+  planes_->draw(prepared, scene);
 }
 
 void SliceRenderer::classify_maxima(const PreparedScene& prepared, const GpuScene& scene,

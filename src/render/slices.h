@@ -4,6 +4,7 @@
 #pragma once
 
 #include "gl/target.h"
+#include "render/cut_planes.h"
 #include "render/gpu_scene.h"
 #include "render/stack_geometry.h"
 #include "slicing/slice_stack.h"
@@ -33,6 +34,10 @@ public:
 
 private:
   void draw_stack(const GpuScene& scene, const Progress& progress);
+  /// Opaque polygons stop what lies behind them by depth. Back to front they are what slices blend over;
+  /// front to back they come last, under the slices.
+  void draw_planes_first(const PreparedScene& prepared, const GpuScene& scene) const;
+  void draw_planes_last(const PreparedScene& prepared, const GpuScene& scene) const;
   void classify_maxima(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target);
 
   const gl::Functions* gl_;
@@ -44,6 +49,7 @@ private:
   gl::Buffer corners_;
   gl::Buffer indices_;
   std::vector<std::size_t> index_ends_; ///< of each slice in the index buffer
+  std::optional<PlaneRenderer> planes_; ///< where the scene has some
   std::vector<TileBatch> batches_;      ///< where the volume is held in tiles
 };
 

@@ -3,8 +3,35 @@
 #include "render/grid_textures.h"
 #include "render/tiled_draw.h"
 #include "render/warp_glsl.h"
+#include "scene/names.h"
+
+#include <cctype>
 
 namespace slicelens {
+
+namespace {
+
+std::string upper_case(std::string text) {
+  for (char& c : text)
+    c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+void add_shading_macros(const PreparedScene& prepared, std::vector<std::string>& macros) {
+  const RenderSettings& render = prepared.scene.render;
+  if (render.shading == Shading::none)
+    return;
+  macros.emplace_back("SHADED");
+  macros.emplace_back("GRADIENTS");
+  macros.push_back("SHADING_" + upper_case(word(render.shading)));
+  macros.push_back("GRADIENT_" + upper_case(word(render.gradient)));
+  if (prepared.gradient_space == GradientSpace::object)
+    macros.emplace_back("GRADIENT_IN_OBJECT_SPACE");
+  if (!prepared.scene.light.direction)
+    macros.emplace_back("LIGHT_AT_EYE");
+}
+
+} // namespace
 
 std::vector<std::string> common_macros(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
@@ -28,17 +55,14 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("MODE_XRAY");
     break;
   }
-  if (render.shading == Shading::diffuse) {
-    macros.emplace_back("SHADING_DIFFUSE");
-    macros.emplace_back(render.gradient == Gradient::forward ? "GRADIENT_FORWARD" : "GRADIENT_CENTRAL");
-    if (!prepared.scene.light.direction)
-      macros.emplace_back("LIGHT_AT_EYE");
-  }
+  add_shading_macros(prepared, macros);
   if (prepared.view.projection == Projection::perspective)
     macros.emplace_back("PERSPECTIVE");
   if (render.pipeline == Pipeline::axis) {
     macros.emplace_back("AXIS_TABLES");
-    if (prepared.tables.mask == AxisMask::weight)
+    if (is_unmasked(prepared.tables))
+      macros.emplace_back("AXIS_UNMASKED");
+    else if (prepared.tables.mask == AxisMask::weight)
       macros.emplace_back("AXIS_WEIGHTS");
   } else if (is_warped(prepared)) {
     macros.emplace_back("WARPED");
@@ -93,6 +117,29 @@ void set_axis_tables(const gl::Functions& gl, const gl::Program& program, const 
   }
 }
 
+void set_shading_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
+                          const GradientTexture& gradients) {
+  if (gradients.texture) {
+    gl.ActiveTexture(GL_TEXTURE0 + gradient_unit);
+    gl.BindTexture(GL_TEXTURE_3D, gradients.texture.name());
+    set_uniform(gl, program, "gradient_texture", static_cast<int>(gradient_unit));
+  }
+  set_uniform(gl, program, "voxel", gradients.voxel);
+  set_uniform(gl, program, "gradient_scale", gradients.scale);
+  const glm::dmat3 world_from_texture(prepared.box.world_from_texture);
+  set_uniform(gl, program, "world_from_gradient",
+              glm::mat3(glm::transpose(glm::inverse(world_from_texture))));
+  const LightSettings& light = prepared.scene.light;
+  set_uniform(gl, program, "to_light", glm::vec3(light_direction(prepared, -prepared.view.forward)));
+  set_uniform(gl, program, "ambient", static_cast<float>(light.ambient));
+  set_uniform(gl, program, "diffuse", static_cast<float>(light.diffuse));
+  set_uniform(gl, program, "specular", static_cast<float>(light.specular));
+  set_uniform(gl, program, "power", static_cast<float>(light.power));
+  set_uniform(gl, program, "cool", glm::vec3(light.cool));
+  set_uniform(gl, program, "warm", glm::vec3(light.warm));
+  set_uniform(gl, program, "two_sided", light.two_sided ? 1 : 0);
+}
+
 void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
                          const GpuScene& scene) {
   if (is_warped(prepared))
@@ -102,8 +149,6 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
     set_struct(gl, program, "effects", prepared.effects);
   if (scene.axis[0])
     set_axis_tables(gl, program, scene.axis);
-  const Volume& volume = prepared.volume;
-  const LightSettings& light = prepared.scene.light;
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_3D, scene.volume.name());
   gl.ActiveTexture(GL_TEXTURE1);
@@ -118,15 +163,7 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
   set_uniform(gl, program, "value_from_texel", scene.value_from_texel);
   set_uniform(gl, program, "transfer_from_value", scene.transfer_from_value);
   set_uniform(gl, program, "transfer_from_texel", scene.transfer_from_texel);
-  set_uniform(gl, program, "voxel",
-              glm::vec3(1.0 / glm::dvec3(volume.dims[0], volume.dims[1], volume.dims[2])));
-  const glm::dmat3 world_from_texture(prepared.box.world_from_texture);
-  set_uniform(gl, program, "world_from_gradient",
-              glm::mat3(glm::transpose(glm::inverse(world_from_texture))));
-  set_uniform(gl, program, "to_light", glm::vec3(light_direction(prepared, -prepared.view.forward)));
-  set_uniform(gl, program, "ambient", static_cast<float>(light.ambient));
-  set_uniform(gl, program, "diffuse", static_cast<float>(light.diffuse));
-  set_uniform(gl, program, "two_sided", light.two_sided ? 1 : 0);
+  set_shading_uniforms(gl, program, prepared, scene.gradients);
   set_uniform(gl, program, "to_eye_axis", glm::vec3(-prepared.view.forward));
   set_uniform(gl, program, "distance_ratio",
               static_cast<float>(prepared.scene.render.opacity_correction == OpacityCorrection::none

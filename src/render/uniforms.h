@@ -19,6 +19,9 @@ void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, cons
 /// and the levels of a pyramid.
 inline constexpr GLenum axis_unit = 12;
 
+/// Texture unit of the second texture that some gradients need.
+inline constexpr GLenum gradient_unit = 10;
+
 /// Planes as GLSL takes them: (normal, −offset).
 std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes);
 

@@ -68,8 +68,18 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key("order", s.order, "back-to-front or front-to-back blending of slices");
   visit.key("opacity_correction", s.opacity_correction,
             "fragment (for the distance along each ray), frame (for the slice distance only) or none");
-  visit.key("shading", s.shading, "none or diffuse");
-  visit.key("gradient", s.gradient, "forward or central differences, for shading");
+  visit.key("shading", s.shading,
+            "none, diffuse, phong (with white highlights) or tone (cool to warm: Gooch et al. 1998)");
+  visit.key("gradient", s.gradient,
+            "for shading: forward or central differences, prefiltered (central differences of a Gaussian "
+            "copy) or precomputed (central differences at voxels, interpolated)");
+  visit.key("gradient_space", s.gradient_space,
+            "where differences are taken under a warp: data (then carried by the Jacobian) or object (of the "
+            "displayed volume: Brunet 2006) (none: as the first warp's paper did)");
+  visit.key("gradient_resolution", s.gradient_resolution,
+            "of the Gaussian copy of gradient prefiltered: full, half or quarter");
+  visit.key("gradient_sigma", s.gradient_sigma,
+            "standard deviation of that Gaussian in voxels of the copy, 0.3 to 8", Range::positive);
   visit.key("classification", s.classification,
             "post (interpolate values, then classify) or pre (classify voxels into 8-bit associated colours, "
             "then interpolate those)");
@@ -105,7 +115,12 @@ void light_keys(Visitor& visit, Settings& s) {
   visit.key("direction", s.direction, "world vector towards the light (none: from the camera)");
   visit.key("ambient", s.ambient, "share of the colour that needs no light", Range::non_negative);
   visit.key("diffuse", s.diffuse, "share of the colour that follows Lambert's law", Range::non_negative);
-  visit.key("two_sided", s.two_sided, "light both sides of a surface");
+  visit.key("specular", s.specular, "strength of the white highlights of shading phong", Range::non_negative);
+  visit.key("power", s.power, "of those highlights: larger is sharper", Range::positive);
+  visit.key("cool", s.cool, "[r, g, b] that shading tone adds to what faces away from the light",
+            Range::unit);
+  visit.key("warm", s.warm, "[r, g, b] that shading tone adds to what faces the light", Range::unit);
+  visit.key("two_sided", s.two_sided, "light both sides of a surface (diffuse and phong)");
 }
 
 template <class Visitor, class Settings>
@@ -113,6 +128,14 @@ void clip_keys(Visitor& visit, Settings& s) {
   visit.key("point", s.point, "a point of the plane, texture coordinates");
   visit.key("normal", s.normal, "world vector; the side it points to is kept");
   visit.key("space", s.space, "texture (the data) or object (the displayed volume)");
+}
+
+template <class Visitor, class Settings>
+void plane_keys(Visitor& visit, Settings& s) {
+  visit.key("point", s.point, "a point of the plane, texture coordinates of the displayed volume");
+  visit.key("normal", s.normal, "world vector");
+  visit.key("style", s.style, "values (grey) or transfer (the transfer function's colours, opaque)");
+  visit.key("range", s.range, "[black, white] of the grey in data units (none: the data's range)");
 }
 
 template <class Visitor, class Settings>
@@ -269,8 +292,17 @@ void scene_keys(Visitor& visit, Settings& s) {
                 [](auto& v, auto& x) { highlight_keys(v, x); });
   visit.section("attenuation", s.attenuation, "opacity lowered outside a focus region (Cohen et al. 2008)",
                 [](auto& v, auto& x) { attenuation_keys(v, x); });
+  visit.section("pick", s.pick, "what slicelens pick takes for a surface", [](auto& v, auto& x) {
+    v.key(
+        "gradient", x.gradient,
+        "gradient in data units per world unit that counts as large (none: a tenth of the data's range over "
+        "the smallest voxel spacing)",
+        Range::positive);
+  });
   visit.section("overlay", s.overlay, "what is drawn over it",
                 [](auto& v, auto& x) { scene_overlay_keys(v, x); });
+  visit.list("planes", s.planes, "cutting planes that show the displayed volume, opaque",
+             [](auto& v, auto& x) { plane_keys(v, x); });
   visit.list("clip", s.clip, "clipping planes", [](auto& v, auto& x) { clip_keys(v, x); });
 }
 

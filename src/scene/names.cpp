@@ -38,13 +38,30 @@ const std::vector<EnumName<OpacityCorrection>>& names_of(OpacityCorrection) {
 
 const std::vector<EnumName<Shading>>& names_of(Shading) {
   static const std::vector<EnumName<Shading>> names = {{Shading::none, "none"},
-                                                       {Shading::diffuse, "diffuse"}};
+                                                       {Shading::diffuse, "diffuse"},
+                                                       {Shading::phong, "phong"},
+                                                       {Shading::tone, "tone"}};
   return names;
 }
 
 const std::vector<EnumName<Gradient>>& names_of(Gradient) {
   static const std::vector<EnumName<Gradient>> names = {{Gradient::forward, "forward"},
-                                                        {Gradient::central, "central"}};
+                                                        {Gradient::central, "central"},
+                                                        {Gradient::prefiltered, "prefiltered"},
+                                                        {Gradient::precomputed, "precomputed"}};
+  return names;
+}
+
+const std::vector<EnumName<GradientSpace>>& names_of(GradientSpace) {
+  static const std::vector<EnumName<GradientSpace>> names = {{GradientSpace::data, "data"},
+                                                             {GradientSpace::object, "object"}};
+  return names;
+}
+
+const std::vector<EnumName<GradientResolution>>& names_of(GradientResolution) {
+  static const std::vector<EnumName<GradientResolution>> names = {{GradientResolution::full, "full"},
+                                                                  {GradientResolution::half, "half"},
+                                                                  {GradientResolution::quarter, "quarter"}};
   return names;
 }
 
@@ -156,6 +173,12 @@ const std::vector<EnumName<FieldDirection>>& names_of(FieldDirection) {
 const std::vector<EnumName<FieldVectors>>& names_of(FieldVectors) {
   static const std::vector<EnumName<FieldVectors>> names = {
       {FieldVectors::automatic, "auto"}, {FieldVectors::lps, "lps"}, {FieldVectors::ras, "ras"}};
+  return names;
+}
+
+const std::vector<EnumName<PlaneStyle>>& names_of(PlaneStyle) {
+  static const std::vector<EnumName<PlaneStyle>> names = {{PlaneStyle::values, "values"},
+                                                          {PlaneStyle::transfer, "transfer"}};
   return names;
 }
 

@@ -224,7 +224,73 @@ void validate_bricks(const Scene& scene) {
   }
 }
 
+void validate_planes(const Scene& scene) {
+  for (const PlaneSettings& plane : scene.planes) {
+    if (glm::length(plane.normal) == 0)
+      throw UsageError("planes: a plane's normal is the zero vector; give a direction");
+    if (plane.range && !(plane.range->x < plane.range->y))
+      throw UsageError("planes: range must be [black, white] with black below white");
+  }
+  if (scene.planes.empty())
+    return;
+  const RenderSettings& render = scene.render;
+  const auto refuse = [](const std::string& problem) {
+    throw UsageError("planes are opaque polygons that show single values; " + problem);
+  };
+  if (scene.planes.size() > max_planes_shown)
+    refuse("give at most " + std::to_string(max_planes_shown));
+  if (render.mode != Mode::dvr)
+    refuse("set render.mode to dvr");
+  if (render.classification == Classification::pre || render.pipeline == Pipeline::fixed_function)
+    refuse("set render.classification to post and take another pipeline than fixed-function");
+  if (render.tiles != std::array<std::size_t, 3>{1, 1, 1} || render.levels != 1)
+    refuse("set render.tiles to [1,1,1] and render.levels to 1");
+}
+
+/// Whether the warp is LaMar's or Cohen's, whose gradients are the data's own, carried by the Jacobian.
+bool carries_gradients(const Warp& warp) {
+  return std::holds_alternative<LamarLens>(warp) || std::holds_alternative<Bifocal>(warp) ||
+         std::holds_alternative<Fisheye>(warp) || std::holds_alternative<VolumeLens>(warp) ||
+         std::holds_alternative<ConnectedLens>(warp);
+}
+
+void validate_gradients(const Scene& scene) {
+  const RenderSettings& render = scene.render;
+  if (render.gradient_sigma < 0.3 || render.gradient_sigma > 8) {
+    throw UsageError("render.gradient_sigma must be from 0.3 to 8 voxels of the copy, not " +
+                     number_text(render.gradient_sigma));
+  }
+  if (render.shading == Shading::none)
+    return;
+  const bool own_texture =
+      render.gradient == Gradient::prefiltered || render.gradient == Gradient::precomputed;
+  if (render.gradient == Gradient::precomputed && render.gradient_space == GradientSpace::object) {
+    throw UsageError("render.gradient 'precomputed' holds gradients of the data, which only the Jacobian "
+                     "carries to what is shown; set render.gradient_space to data, or render.gradient to "
+                     "central, forward or prefiltered");
+  }
+  const bool bricked = render.levels > 1 || render.tiles != std::array<std::size_t, 3>{1, 1, 1};
+  if (bricked && own_texture) {
+    throw UsageError("render.gradient '" + word(render.gradient) +
+                     "' needs a second texture of the whole volume, which render.tiles and render.levels do "
+                     "not make; set render.gradient to central or forward, or render.tiles to [1,1,1] and "
+                     "render.levels to 1");
+  }
+  if (bricked && gradient_space_of(scene) == GradientSpace::object) {
+    throw UsageError("render.gradient_space 'object' may look anywhere in the volume, which render.tiles and "
+                     "render.levels do not hold in one texture; set render.gradient_space to data, or "
+                     "render.tiles to [1,1,1] and render.levels to 1");
+  }
+}
+
 } // namespace
+
+GradientSpace gradient_space_of(const Scene& scene) {
+  if (scene.warp.empty() || scene.render.gradient == Gradient::precomputed)
+    return GradientSpace::data;
+  return scene.render.gradient_space.value_or(carries_gradients(scene.warp[0]) ? GradientSpace::data
+                                                                               : GradientSpace::object);
+}
 
 bool draws_slices(Pipeline pipeline) {
   return pipeline == Pipeline::slices || pipeline == Pipeline::tessellated || pipeline == Pipeline::axis ||
@@ -287,6 +353,8 @@ void validate(const Scene& scene) {
   validate_warps(scene);
   validate_effects(scene);
   validate_bricks(scene);
+  validate_planes(scene);
+  validate_gradients(scene);
   for (const ClipSettings& plane : scene.clip) {
     if (glm::length(plane.normal) == 0)
       throw UsageError("clip: a plane's normal is the zero vector; give a direction");

@@ -55,8 +55,14 @@ enum class Pipeline { slices, tessellated, axis, fragment, grid, fixed_function,
 enum class Mode { dvr, mip, xray };
 enum class Order { back_to_front, front_to_back };
 enum class OpacityCorrection { fragment, frame, none };
-enum class Shading { none, diffuse };
-enum class Gradient { forward, central };
+enum class Shading { none, diffuse, phong, tone };
+/// `prefiltered`: central differences of a Gaussian copy; `precomputed`: central differences at voxels,
+/// interpolated.
+enum class Gradient { forward, central, prefiltered, precomputed };
+/// Where differences are taken under a warp: in the data, or in the displayed volume (docs/pipeline.md).
+enum class GradientSpace { data, object };
+/// Of the Gaussian copy, as a share of the volume's voxels on each axis.
+enum class GradientResolution { full, half, quarter };
 /// `pre`: voxels become colours of 8 bits before they are interpolated.
 enum class Classification { post, pre };
 enum class Filter { nearest, linear, linear_exact, cubic };
@@ -78,6 +84,9 @@ struct RenderSettings {
   OpacityCorrection opacity_correction = OpacityCorrection::fragment;
   Shading shading = Shading::none;
   Gradient gradient = Gradient::central;
+  std::optional<GradientSpace> gradient_space = std::nullopt;        ///< none: gradient_space_of decides
+  GradientResolution gradient_resolution = GradientResolution::full; ///< of `prefiltered`
+  double gradient_sigma = 1; ///< of `prefiltered`: standard deviation in voxels of its copy
   Classification classification = Classification::post;
   Filter filter = Filter::linear;
   Target target = Target::rgba32f;
@@ -100,6 +109,10 @@ struct LightSettings {
       direction; ///< world vector from the object towards the light; none: at the camera
   double ambient = 0.3;
   double diffuse = 0.7;
+  double specular = 0.2; ///< shading `phong`, with `power`: white highlights
+  double power = 10;
+  glm::dvec3 cool{0, 0, 0.4};   ///< shading `tone`: added to what faces away from the light
+  glm::dvec3 warm{0.4, 0.4, 0}; ///< and to what faces it
   bool two_sided = true;
 };
 
@@ -110,6 +123,16 @@ struct ClipSettings {
   glm::dvec3 point{0.5};      ///< texture coordinates
   glm::dvec3 normal{0, 1, 0}; ///< world space, any length but zero
   ClipSpace space = ClipSpace::texture;
+};
+
+enum class PlaneStyle { values, transfer };
+
+/// One entry of `planes`: an opaque polygon that shows the displayed volume where it cuts it.
+struct PlaneSettings {
+  glm::dvec3 point{0.5};                          ///< texture coordinates of the displayed volume
+  glm::dvec3 normal{0, -1, 0};                    ///< world space, any length but zero
+  PlaneStyle style = PlaneStyle::values;          ///< grey, or the transfer function's colours
+  std::optional<glm::dvec2> range = std::nullopt; ///< of the grey, data units; none: the data's
 };
 
 enum class Wireframe { none, segments, triangles };
@@ -125,6 +148,11 @@ struct OverlaySettings {
       0; ///< volumes only: degrees the camera goes aside to show the slices themselves; 0: the volume
 };
 
+/// Section `pick`.
+struct PickSettings {
+  std::optional<double> gradient; ///< data units per world unit; none: a tenth of the range over h
+};
+
 struct Scene {
   std::string title;
   VolumeSettings volume;
@@ -136,8 +164,13 @@ struct Scene {
   std::vector<Warp> warp; ///< in forward order (docs/pipeline.md)
   Highlight highlight;
   Attenuation attenuation;
+  PickSettings pick;
+  std::vector<PlaneSettings> planes; ///< not cut by `clip`
   OverlaySettings overlay;
 };
+
+/// Most entries of `planes`.
+inline constexpr std::size_t max_planes_shown = 16;
 
 /// Limits of render.tiles and render.levels.
 inline constexpr std::size_t max_tiles = 1024;    ///< in all
@@ -148,6 +181,11 @@ inline constexpr std::size_t smallest_grid_size = 8;
 
 /// Whether a pipeline blends slices (and not rays).
 bool draws_slices(Pipeline pipeline);
+
+/// Where the scene's gradients are taken: `data` without a warp and for `precomputed`; else
+/// render.gradient_space; where that is not given, as the paper of the first warp did: LaMar's and Cohen's
+/// warps in the data, all others in object space (Brunet, Nowak and Gleicher 2006, eq. 1).
+GradientSpace gradient_space_of(const Scene& scene);
 
 /// Whether the scene highlights or attenuates anything.
 bool has_effects(const Scene& scene);

@@ -2,6 +2,9 @@
 
 #include "core/errors.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace slicelens {
 
 namespace {
@@ -46,6 +49,14 @@ AxisSample sample_axis(const Warp& warp, int axis, double x) {
     return {lens(box), functions.lens_weight(x, box.center[axis], box.inner[axis], box.outer[axis]).x};
   }
   throw UsageError("warp '" + kind_of(warp) + "' has no map for single axes");
+}
+
+bool is_unmasked(const AxisTables& tables) {
+  for (const std::vector<glm::vec4>& texels : tables.texels) {
+    if (!std::all_of(texels.begin(), texels.end(), [](const glm::vec4& texel) { return texel.g == 1; }))
+      return false;
+  }
+  return true;
 }
 
 AxisTables make_axis_tables(const std::vector<Warp>& warps, const FocusEffects& effects,

@@ -32,6 +32,9 @@ inline constexpr std::size_t max_axis_texels = 4096;
 AxisTables make_axis_tables(const std::vector<Warp>& warps, const FocusEffects& effects,
                             const std::array<std::size_t, 3>& counts);
 
+/// Whether all masks are 1, so that offsets apply everywhere.
+bool is_unmasked(const AxisTables& tables);
+
 /// The inverse map of a separable warp on one axis, texture coordinates, with the axis' mask or weight.
 struct AxisSample {
   double texture = 0; ///< u

@@ -129,7 +129,10 @@ glm::dvec3 object_from_texture(const GridMap& map, const glm::dvec3& u) {
   return p;
 }
 
-void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high) {
+namespace {
+
+/// One pass of tighten_bounds.
+void drop_empty_cells(const PointMap& map, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high) {
   constexpr std::size_t n = 17;
   const MapGrid grid = make_map_grid(map, {n, n, n}, low, high);
   const auto point = [&](std::size_t i, std::size_t j, std::size_t k) {
@@ -157,6 +160,14 @@ void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low
     low = first;
     high = last;
   }
+}
+
+} // namespace
+
+void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high) {
+  // Each pass has smaller cells.
+  for (int pass = 0; pass < 3; ++pass)
+    drop_empty_cells(map, size, low, high);
 }
 
 double smallest_determinant(const MapGrid& grid) {

@@ -124,7 +124,7 @@ TEST_CASE("unequal spacings in a turned pose: the normal is the world-space grad
     }
   }
   for (const std::string& pipeline : pipelines) {
-    for (const std::string kind : {"forward", "central"}) {
+    for (const std::string kind : {"forward", "central", "precomputed"}) {
       PreparedScene scene = scene_of(tilted.volume(), grey(0.1),
                                      R"("size":[32,32],"shading":"diffuse","filter":"linear-exact")");
       scene = changed(scene, {clip + "]", "render.pipeline=" + pipeline, "render.gradient=" + kind,
@@ -144,7 +144,8 @@ TEST_CASE("unequal spacings in a turned pose: the normal is the world-space grad
       INFO(pipeline << ", " << kind << ": " << largest << " over " << covered);
       CHECK(covered > 20);
       // Differences of floats near 1 over one voxel (about .04): 1e-5 of the gradient.
-      CHECK(largest < 1e-4);
+      // Halfs of differences: 11 bits.
+      CHECK(largest < (kind == "precomputed" ? 5e-4 : 1e-4));
     }
   }
 }

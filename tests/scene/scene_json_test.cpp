@@ -87,6 +87,40 @@ TEST_CASE("combinations that make no sense are refused by name") {
   CHECK(contains(refusal(R"({"render":{"mode":"mip","shading":"diffuse"}})"), "shading"));
 }
 
+TEST_CASE("gradients that cannot be had are refused by name") {
+  const std::string fisheye = R"("warp":{"kind":"fisheye"})";
+  const auto render = [](const std::string& keys) { return R"("render":{"shading":"phong",)" + keys + "}"; };
+  const std::string space = R"("gradient_space":"object")";
+  CHECK(contains(refusal("{" + render(R"("gradient":"precomputed",)" + space) + "," + fisheye + "}"),
+                 "render.gradient_space to data"));
+  CHECK(contains(refusal("{" + render(R"("gradient":"prefiltered","tiles":[2,1,1])") + "}"),
+                 "render.gradient 'prefiltered' needs a second texture"));
+  CHECK(contains(refusal("{" + render(R"("gradient":"precomputed","levels":2)") + "}"),
+                 "render.gradient 'precomputed' needs a second texture"));
+  CHECK(contains(refusal("{" + render(space + R"(,"tiles":[2,1,1],"pipeline":"tessellated")") +
+                         R"(,"warp":{"kind":"lamar"}})"),
+                 "render.gradient_space 'object'"));
+  CHECK(contains(refusal(R"({"render":{"gradient_sigma":0.2}})"), "render.gradient_sigma"));
+  CHECK(contains(refusal(R"({"render":{"gradient_sigma":9}})"), "render.gradient_sigma"));
+  CHECK(contains(refusal(R"({"render":{"shading":"tone","mode":"xray"}})"), "render.shading"));
+  CHECK(contains(refusal(R"({"render":{"shading":"phong","classification":"pre"}})"), "render.shading"));
+  CHECK(contains(refusal(R"({"render":{"shading":"tone","pipeline":"fixed-function"}})"), "render.shading"));
+  CHECK(contains(refusal(R"({"light":{"power":0}})"), "light.power"));
+  CHECK(contains(refusal(R"({"light":{"cool":[0,0,2]}})"), "light.cool"));
+}
+
+TEST_CASE("the first warp decides where gradients are taken unless a key does") {
+  const auto space = [](const std::string& keys) { return gradient_space_of(scene_from_json(keys, "s")); };
+  CHECK(space("{}") == GradientSpace::data);
+  CHECK(space(R"({"render":{"gradient_space":"object"}})") == GradientSpace::data); // the same without a warp
+  for (const std::string kind : {"lamar", "bifocal", "fisheye", "volume-lens", "connected-lens"}) {
+    const std::string warp = R"("warp":{"kind":")" + kind + R"("})";
+    CHECK(space("{" + warp + "}") == GradientSpace::data);
+    CHECK(space(R"({"render":{"gradient_space":"object"},)" + warp + "}") == GradientSpace::object);
+    CHECK(space(R"({"render":{"gradient":"precomputed"},)" + warp + "}") == GradientSpace::data);
+  }
+}
+
 TEST_CASE("changes by --set reach every key and one alternative removes the other") {
   const std::vector<KeyValue> changes = {
       parse_assignment("render.spacing=0.5"), parse_assignment("volume.file=x.nrrd"),

@@ -126,6 +126,13 @@ TEST_CASE("box lenses with wrong half-widths, places or magnifications are refus
   LensBox box;
   box.magnification = 0.751;
   CHECK(refusal([&] { validate(Warp(VolumeLens{box})); }).empty());
+  // With a thin border the connected lens folds where it bends along all three axes before its profile does:
+  // i = .25, o = .3, limit of the profile .55/.6 = .917.
+  box = {glm::dvec3(0.5), glm::dvec3(0.25), glm::dvec3(0.3), 0.92};
+  CHECK(refusal([&] { validate(Warp(VolumeLens{box})); }).empty());
+  check_refused(refusal([&] { validate(Warp(ConnectedLens{box})); }), {"warp 'connected-lens'", "corners"});
+  box.magnification = 0.99;
+  CHECK(refusal([&] { validate(Warp(ConnectedLens{box})); }).empty());
   box = {glm::dvec3(0.7), glm::dvec3(0.1), glm::dvec3(0.3), 2}; // ends on the face: .7 + .3 rounds to 1
   CHECK(refusal([&] { validate(Warp(VolumeLens{box})); }).empty());
 }

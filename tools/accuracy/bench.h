@@ -86,5 +86,6 @@ void precision_section(const Bench& bench);
 void opacity_section(const Bench& bench);
 void vessel_section(const Bench& bench);
 void axis_section(const Bench& bench);
+void gradient_section(const Bench& bench);
 
 } // namespace slicelens::accuracy

@@ -20,13 +20,11 @@ struct Section {
 };
 
 const std::vector<Section>& sections() {
-  static const std::vector<Section> list = {{"closed-forms", closed_form_section},
-                                            {"parity", parity_section},
-                                            {"perspective", perspective_section},
-                                            {"precision", precision_section},
-                                            {"opacity", opacity_section},
-                                            {"axis", axis_section},
-                                            {"vessels", vessel_section}};
+  static const std::vector<Section> list = {
+      {"closed-forms", closed_form_section}, {"parity", parity_section},
+      {"perspective", perspective_section},  {"precision", precision_section},
+      {"opacity", opacity_section},          {"axis", axis_section},
+      {"gradients", gradient_section},       {"vessels", vessel_section}};
   return list;
 }
 
@@ -73,7 +71,7 @@ int main(int argc, char** argv) {
       ->type_name("DIR");
   app.add_option("sections", wanted, "which; all by default")
       ->check(CLI::IsMember(
-          {"closed-forms", "parity", "perspective", "precision", "opacity", "axis", "vessels"}));
+          {"closed-forms", "parity", "perspective", "precision", "opacity", "axis", "gradients", "vessels"}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

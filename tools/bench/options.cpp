@@ -24,6 +24,14 @@ std::vector<Variant> variants() {
     s.render.shading = Shading::diffuse;
     s.render.gradient = gradient;
   };
+  const auto prefilter = [=](S& s, GradientResolution resolution) {
+    shade(s, Gradient::prefiltered);
+    s.render.gradient_resolution = resolution;
+  };
+  const auto light = [=](S& s, Shading shading) {
+    shade(s, Gradient::central);
+    s.render.shading = shading;
+  };
   return {
       {"default again", [](S&) {}},
       {"volume texture r8", [](S& s) { s.render.volume_texture = VolumeTexture::r8; }},
@@ -42,6 +50,12 @@ std::vector<Variant> variants() {
       {"filter cubic", [](S& s) { s.render.filter = Filter::cubic; }},
       {"diffuse, forward gradient", [=](S& s) { shade(s, Gradient::forward); }},
       {"diffuse, central gradient", [=](S& s) { shade(s, Gradient::central); }},
+      {"diffuse, prefiltered gradient, full", [=](S& s) { prefilter(s, GradientResolution::full); }},
+      {"diffuse, prefiltered gradient, half", [=](S& s) { prefilter(s, GradientResolution::half); }},
+      {"diffuse, prefiltered gradient, quarter", [=](S& s) { prefilter(s, GradientResolution::quarter); }},
+      {"diffuse, precomputed gradient", [=](S& s) { shade(s, Gradient::precomputed); }},
+      {"phong, central gradient", [=](S& s) { light(s, Shading::phong); }},
+      {"tone, central gradient", [=](S& s) { light(s, Shading::tone); }},
       {"spacing 0.5, corrected per frame", [](S& s) { s.render.spacing = 0.5; }},
       {"spacing 0.5, not corrected",
        [](S& s) {

@@ -12,6 +12,7 @@
 #include "scene/load_warps.h"
 #include "scene/names.h"
 #include "scene/scene_json.h"
+#include "study/axis_tables_page.h"
 #include "study/gallery.h"
 
 #include <algorithm>
@@ -168,6 +169,8 @@ private:
           {save(rays.image, scene.name + "_rays.png"), "rays, drawn in " + milliseconds(rays.times.draw)});
       compare(entry, word(slicing) + " against rays", slices.image, rays.image, background);
     }
+    if (tables)
+      plot_tables(entry, scene.input.scene, progress);
     entry.data = std::to_string(volume_.dims[0]) + "×" + std::to_string(volume_.dims[1]) + "×" +
                  std::to_string(volume_.dims[2]) + " " + name_of(volume_.type) + ", " + volume_.format;
     if (scene.argument == scene.name + ".json")
@@ -217,6 +220,27 @@ private:
     return render_picture(prepared, &*context_.context);
   }
 
+  /// The tables as curves and texels, as PNG on the page and as SVG beside it, where there is a gnuplot.
+  void plot_tables(GalleryEntry& entry, const Scene& scene, const Progress& progress) {
+    if (!plots_)
+      return;
+    const auto separable = [](const Warp& warp) { return is_separable(warp); };
+    if (!std::all_of(scene.warp.begin(), scene.warp.end(), separable))
+      return;
+    try {
+      PreparedScene prepared = prepare(scene, std::move(volume_), transfer_of(scene, volume_));
+      const PlotPage page = axis_tables_page(entry.title, prepared);
+      volume_ = std::move(prepared.volume);
+      const std::string name = entry.name + "_tables";
+      write_text_atomically(folder_ / (name + ".svg"), draw_plot(page, PlotFormat::svg));
+      write_text_atomically(folder_ / (name + ".png"), draw_plot(page, PlotFormat::png));
+      entry.pictures.push_back({name + ".png", "the three tables (" + name + ".svg)"});
+    } catch (const FileError& problem) {
+      plots_ = false;
+      report_warning(progress, std::string("the tables are not plotted: ") + problem.what());
+    }
+  }
+
   /// Metrics; and a heat map of an entry's first comparison.
   void compare(GalleryEntry& entry, const std::string& what, const Image& a, const Image& b,
                const glm::dvec3& background) {
@@ -259,6 +283,7 @@ private:
     return name;
   }
 
+  bool plots_ = true;
   fs::path folder_;
   OpenContext context_;
   Volume volume_;

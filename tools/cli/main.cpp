@@ -225,6 +225,67 @@ void add_warp(CLI::App& app, WarpOptions& options, std::function<void()>& run) {
   command.callback([&options, &run] { run = [&options] { run_warp(options); }; });
 }
 
+void add_pick(CLI::App& app, PickOptions& options, std::function<void()>& run) {
+  CLI::App& command = *app.add_subcommand(
+      "pick", "what lies under a pixel of the displayed volume: three hits as JSON on stdout");
+  command.footer("Samples the line of sight through the (deformed) volume and gives the first sample with "
+                 "opacity (alpha), the "
+                 "first with a\nlarge gradient (gradient, see the key pick.gradient), and the one at which "
+                 "the summed opacity "
+                 "reaches one (accumulated):\nin view, world, object (displayed) and texture (data) space; "
+                 "null where there is "
+                 "none.\n\n"
+                 "  slicelens pick head.json --at 256,200\n"
+                 "  slicelens pick head.json --at 256,200 --profile ray.csv");
+  command.add_option("input", options.input, "SCENE, VOLUME or IMAGE")->required()->type_name("");
+  command.add_option("--at", options.at, "X,Y in pixels of the picture, (0,0) the top left corner")
+      ->required()
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("X,Y");
+  command.add_option("--samples", options.samples, "on the line (default: four for each slice distance)")
+      ->check(CLI::Range(2, 16384))
+      ->type_name("N");
+  command.add_option("--profile", options.profile, "write all samples as CSV")->type_name("FILE");
+  add_set(command, options.set);
+  command.callback([&options, &run] { run = [&options] { run_pick(options); }; });
+}
+
+void add_slice(CLI::App& app, SliceOptions& options, std::function<void()>& run) {
+  CLI::App& command =
+      *app.add_subcommand("slice", "a picture of one plane through the displayed (deformed) volume");
+  command.footer("Looks at the plane from the side its normal points to. The key planes puts such planes "
+                 "into a scene.\n\n"
+                 "  slicelens slice head.json --point 0.5,0.5,0.5 --normal 0,-1,0 -o coronal.png\n"
+                 "  slicelens slice ct/ --normal 1,0,0.3 --range -200,400 -o oblique.png");
+  command.add_option("input", options.input, "SCENE, VOLUME or IMAGE")->required()->type_name("");
+  command.add_option("-o,--output", options.output, "picture to write, .png or .exr")
+      ->required()
+      ->type_name("FILE");
+  command
+      .add_option("--point", options.point, "X,Y,Z of the plane, texture coordinates (default 0.5,0.5,0.5)")
+      ->delimiter(',')
+      ->expected(3)
+      ->type_name("X,Y,Z");
+  command.add_option("--normal", options.normal, "X,Y,Z, world vector (default 0,-1,0: from the front)")
+      ->delimiter(',')
+      ->expected(3)
+      ->type_name("X,Y,Z");
+  command.add_option("--style", options.style, "values (grey) or transfer (the transfer function's colours)")
+      ->capture_default_str()
+      ->type_name("STYLE");
+  command.add_option("--range", options.range, "BLACK,WHITE in data units (default: the data's range)")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("B,W");
+  add_set(command, options.set);
+  command
+      .add_option("--depth", options.depth,
+                  "8 or 16 for .png (default 8), half or float for .exr (default float)")
+      ->type_name("DEPTH");
+  command.callback([&options, &run] { run = [&options] { run_slice(options); }; });
+}
+
 /// An error's text as one line on stderr.
 int fail(const std::string& message, int status) {
   end_progress();
@@ -286,6 +347,8 @@ int run_program(int argc, char** argv) {
   GalleryOptions gallery;
   PlotOptions plot;
   WarpOptions warp;
+  PickOptions pick;
+  SliceOptions slice;
   add_render(app, render, run);
   add_lens(app, lens, run);
   add_compare(app, compare, run);
@@ -295,6 +358,8 @@ int run_program(int argc, char** argv) {
   add_gallery(app, gallery, run);
   add_plot(app, plot, run);
   add_warp(app, warp, run);
+  add_pick(app, pick, run);
+  add_slice(app, slice, run);
   try {
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);

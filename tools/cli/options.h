@@ -80,6 +80,25 @@ struct PlotOptions {
   std::vector<int> size; ///< width and height in pixels; empty: the page's own
 };
 
+struct PickOptions {
+  std::string input;
+  std::vector<double> at;     ///< x, y in pixels
+  std::optional<int> samples; ///< none: as many as the slices deserve
+  std::string profile;        ///< CSV file; empty: none
+  std::vector<std::string> set;
+};
+
+struct SliceOptions {
+  std::string input;
+  std::string output;
+  std::vector<double> point;  ///< texture coordinates of the displayed volume
+  std::vector<double> normal; ///< world
+  std::string style = "values";
+  std::vector<double> range; ///< of the grey; empty: the data's
+  std::vector<std::string> set;
+  std::string depth; ///< as in RenderOptions
+};
+
 // Each runs one command and returns; results go to stdout and files, the rest to stderr. They throw the
 // errors of core/errors.h.
 void run_render(const RenderOptions& options);
@@ -91,5 +110,7 @@ void run_list(const ListOptions& options);
 void run_gallery(const GalleryOptions& options);
 void run_plot(const PlotOptions& options);
 void run_warp(const WarpOptions& options);
+void run_pick(const PickOptions& options);
+void run_slice(const SliceOptions& options);
 
 } // namespace slicelens::cli

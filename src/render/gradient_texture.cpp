@@ -1,0 +1,79 @@
+#include "render/gradient_texture.h"
+
+#include "core/errors.h"
+#include "volume/gradient_volume.h"
+
+#include <algorithm>
+#include <climits>
+
+namespace slicelens {
+
+namespace {
+
+std::array<int, 3> texture_size(const std::array<std::size_t, 3>& dims) {
+  std::array<int, 3> size{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    size[axis] = static_cast<int>(std::min<std::size_t>(dims[axis], INT_MAX));
+  return size;
+}
+
+void upload_copy(const gl::Functions& gl, const PreparedScene& prepared, GradientTexture& made) {
+  const RenderSettings& render = prepared.scene.render;
+  const Volume copy =
+      gaussian_copy(prepared.volume, reduction_of(render.gradient_resolution), render.gradient_sigma);
+  gl::TextureSpec spec;
+  spec.format = GL_R32F;
+  made.texture =
+      gl::make_texture_3d(gl, spec, texture_size(copy.dims), std::span<const std::byte>(copy.voxels));
+  made.voxel = glm::vec3(1.0 / glm::dvec3(copy.dims[0], copy.dims[1], copy.dims[2]));
+  made.bytes = voxel_bytes(copy);
+}
+
+void upload_differences(const gl::Functions& gl, const PreparedScene& prepared, const Progress& progress,
+                        GradientTexture& made) {
+  const Volume& volume = prepared.volume;
+  gl::TextureSpec spec;
+  spec.format = GL_RGB16F;
+  spec.source_type = GL_FLOAT;
+  made.texture = gl::make_texture_3d(
+      gl, spec, texture_size(volume.dims),
+      [&](int z0, int z1, std::span<std::byte> slab) {
+        central_differences(volume, static_cast<std::size_t>(z0), static_cast<std::size_t>(z1),
+                            {reinterpret_cast<float*>(slab.data()), slab.size() / sizeof(float)});
+      },
+      progress);
+  made.scale =
+      glm::vec3(0.5 * (volume.max - volume.min) * glm::dvec3(volume.dims[0], volume.dims[1], volume.dims[2]));
+  made.bytes = 6 * voxel_count(volume);
+}
+
+} // namespace
+
+std::size_t reduction_of(GradientResolution resolution) {
+  switch (resolution) {
+  case GradientResolution::full:
+    return 1;
+  case GradientResolution::half:
+    return 2;
+  case GradientResolution::quarter:
+    break;
+  }
+  return 4;
+}
+
+GradientTexture upload_gradients(const gl::Functions& gl, const PreparedScene& prepared,
+                                 const Progress& progress) {
+  const RenderSettings& render = prepared.scene.render;
+  const auto& dims = prepared.volume.dims;
+  GradientTexture made;
+  made.voxel = glm::vec3(1.0 / glm::dvec3(dims[0], dims[1], dims[2]));
+  if (render.shading == Shading::none)
+    return made;
+  if (render.gradient == Gradient::prefiltered)
+    upload_copy(gl, prepared, made);
+  else if (render.gradient == Gradient::precomputed)
+    upload_differences(gl, prepared, progress, made);
+  return made;
+}
+
+} // namespace slicelens

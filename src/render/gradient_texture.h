@@ -1,0 +1,26 @@
+// The second texture of gradients `prefiltered` and `precomputed`.
+#pragma once
+
+#include "gl/texture.h"
+#include "render/prepare.h"
+
+namespace slicelens {
+
+/// Voxels of the volume for one of the Gaussian copy on each axis: 1, 2 or 4.
+std::size_t reduction_of(GradientResolution resolution);
+
+struct GradientTexture {
+  gl::Texture texture; ///< R32F, values of the copy; or RGB16F, differences; empty where gradients need none
+  glm::vec3 voxel{
+      1}; ///< step of differences in texture coordinates: one voxel, of the copy where there is one
+  glm::vec3 scale{1}; ///< derivative by texture coordinates = scale ∘ texel of a gradient volume
+  std::size_t bytes = 0;
+};
+
+/// Makes it on all cores and uploads it. `precomputed` holds three halfs, 6 bytes a voxel: central
+/// differences as shares of the data's range (volume/gradient_volume.h), with 11 bits 0.03° of direction.
+/// Throws LimitError where the driver has no room.
+GradientTexture upload_gradients(const gl::Functions& gl, const PreparedScene& prepared,
+                                 const Progress& progress);
+
+} // namespace slicelens

@@ -1,0 +1,238 @@
+// Kinds of gradient against the normals of a sphere, as it is and deformed.
+
+#include "bench.h"
+#include "scene/names.h"
+#include "volume/phantom.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iostream>
+
+namespace slicelens::accuracy {
+
+namespace {
+
+constexpr int kVoxels = 64;
+constexpr int kPixels = 96;
+constexpr double kSpacing = 0.125;
+constexpr double kRadius = kBallRadius * kVoxels; // voxels
+
+/// The sphere as 8-bit voxels that are inside or outside: what the blocky sphere of Brunet's Figure 4 is.
+Volume solid_ball() {
+  Volume volume;
+  volume.dims = {kVoxels, kVoxels, kVoxels};
+  volume.origin = glm::dvec3(-0.5 * (kVoxels - 1));
+  volume.type = ScalarType::u8;
+  for (int k = 0; k < kVoxels; ++k) {
+    for (int j = 0; j < kVoxels; ++j) {
+      for (int i = 0; i < kVoxels; ++i) {
+        const glm::dvec3 p = glm::dvec3(i, j, k) + volume.origin;
+        volume.voxels.push_back(glm::length(p) < kRadius ? std::byte{255} : std::byte{0});
+      }
+    }
+  }
+  update_statistics(volume);
+  return volume;
+}
+
+/// Opaque and black from `threshold` on, so that shading `tone` shows k = (1 + n·l)/2 of the first sample.
+Subject sphere_subject(const std::string& name, Volume volume, double threshold) {
+  Scene scene = oblique_scene(kPixels);
+  scene.render.pipeline = Pipeline::rays;
+  scene.render.spacing = kSpacing;
+  scene.render.early_termination = 0.99;
+  scene.render.shading = Shading::tone;
+  scene.light.cool = {0, 0, 0};
+  scene.light.warm = {1, 1, 1};
+  return {name,
+          prepare(std::move(scene), std::move(volume), step_transfer(threshold, {0, 0, 0, 0}, {0, 0, 0, 1})),
+          true};
+}
+
+struct Kind {
+  std::string name;
+  Gradient gradient;
+  GradientResolution resolution = GradientResolution::full;
+};
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> list = {
+      {"forward", Gradient::forward},
+      {"central", Gradient::central},
+      {"prefiltered, full", Gradient::prefiltered, GradientResolution::full},
+      {"prefiltered, half", Gradient::prefiltered, GradientResolution::half},
+      {"prefiltered, quarter", Gradient::prefiltered, GradientResolution::quarter},
+      {"precomputed", Gradient::precomputed}};
+  return list;
+}
+
+struct Display {
+  std::string name;
+  std::vector<Warp> warps;
+};
+
+/// Focal point and lens beside the sphere's centre, so that the deformed sphere has no symmetry.
+std::vector<Display> displays() {
+  Fisheye fisheye;
+  fisheye.center = {0.4, 0.3, 0.55};
+  fisheye.distortion = glm::dvec3(2);
+  const LensBox box = {{0.35, 0.3, 0.55}, glm::dvec3(0.12), glm::dvec3(0.3), 2};
+  std::vector<Display> list = {
+      {"undeformed", {}}, {"fisheye", {fisheye}}, {"connected lens", {ConnectedLens{box}}}};
+  return list;
+}
+
+/// Signed distance in voxels from the sphere of what is shown at p, texture coordinates.
+double level(const PreparedScene& prepared, const glm::dvec3& p) {
+  const glm::dvec3 u = texture_from_object(prepared.maps, box_from_texture(prepared.space, p));
+  return kVoxels * glm::length(u - 0.5) - kRadius; // the box is a cube
+}
+
+/// Outward normal of the deformed sphere where the ray first meets it, by differences of the exact level:
+/// world axes are the box's own. Nothing where it is met under more than 60°, where a step along the ray goes
+/// far round the surface.
+std::optional<glm::dvec3> true_normal(const PreparedScene& prepared, const Ray& ray) {
+  const glm::dmat4 texture_from_world = glm::inverse(prepared.box.world_from_texture);
+  const auto at = [&](double s) {
+    return glm::dvec3(texture_from_world * glm::dvec4(ray.origin + s * ray.direction, 1));
+  };
+  const double middle = -glm::dot(ray.origin, ray.direction); // the box's centre is the world's origin
+  constexpr double step = 0.1;
+  double s = middle - kVoxels;
+  while (s < middle + kVoxels && level(prepared, at(s)) > 0)
+    s += step;
+  if (s >= middle + kVoxels)
+    return std::nullopt;
+  double low = s - step;
+  for (int i = 0; i < 50; ++i) {
+    const double half = 0.5 * (low + s);
+    (level(prepared, at(half)) > 0 ? low : s) = half;
+  }
+  glm::dvec3 normal(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 h(0);
+    h[axis] = 1e-6;
+    normal[axis] = level(prepared, at(s) + h) - level(prepared, at(s) - h);
+  }
+  normal = glm::normalize(normal);
+  return -glm::dot(normal, ray.direction) > 0.5 ? std::optional(normal) : std::nullopt;
+}
+
+/// "mean, 95th percentile" of the angle between true normals and those of the picture, in degrees.
+std::string error_cell(const Bench& bench, Subject& subject, const Display& display, const Change& change) {
+  Image along[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    along[axis] = draw(bench, subject, [&](Scene& scene) {
+      scene.warp = display.warps;
+      glm::dvec3 light(0);
+      light[axis] = 1;
+      scene.light.direction = light;
+      change(scene);
+    });
+  }
+  const Scene before = subject.prepared.scene;
+  subject.prepared.scene.warp = display.warps;
+  prepare_again(subject.prepared);
+  std::vector<double> angles;
+  double sum = 0;
+  for (int y = 0; y < kPixels; ++y) {
+    for (int x = 0; x < kPixels; ++x) {
+      const auto normal =
+          true_normal(subject.prepared, ray_from_pixel(subject.prepared.view, x + 0.5, y + 0.5));
+      if (!normal || channel(along[0], x, y, 3) < 0.5F)
+        continue;
+      glm::dvec3 seen;
+      for (int axis = 0; axis < 3; ++axis)
+        seen[axis] = 2 * static_cast<double>(channel(along[axis], x, y, 0)) - 1;
+      const double cosine = glm::length(seen) > 0 ? glm::dot(glm::normalize(seen), *normal) : 0;
+      angles.push_back(glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0))));
+      sum += angles.back();
+    }
+  }
+  subject.prepared.scene = before;
+  prepare_again(subject.prepared);
+  if (angles.empty())
+    return "–";
+  const std::size_t most = angles.size() * 95 / 100;
+  std::nth_element(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(most), angles.end());
+  return fixed(sum / static_cast<double>(angles.size()), 2) + ", " + fixed(angles[most], 2);
+}
+
+void kinds_table(const Bench& bench, Subject& subject) {
+  std::cout << "### " << subject.name << "\n\n";
+  std::vector<std::string> heads = {"gradient"};
+  for (const Display& display : displays()) {
+    if (display.warps.empty()) {
+      heads.push_back(display.name);
+    } else {
+      heads.push_back(display.name + ", data");
+      heads.push_back(display.name + ", object");
+    }
+  }
+  Table table(heads);
+  for (const Kind& kind : kinds()) {
+    std::vector<std::string> cells = {kind.name};
+    for (const Display& display : displays()) {
+      for (const GradientSpace space : {GradientSpace::data, GradientSpace::object}) {
+        if (space == GradientSpace::object && display.warps.empty())
+          continue;
+        if (space == GradientSpace::object && kind.gradient == Gradient::precomputed) {
+          cells.emplace_back("–");
+          continue;
+        }
+        say("gradients: " + subject.name + ", " + kind.name + ", " + display.name + ", " + word(space));
+        cells.push_back(error_cell(bench, subject, display, [&](Scene& scene) {
+          scene.render.gradient = kind.gradient;
+          scene.render.gradient_resolution = kind.resolution;
+          scene.render.gradient_space = space;
+        }));
+      }
+    }
+    table.row(cells);
+  }
+}
+
+void sigma_table(const Bench& bench, Subject& subject) {
+  std::cout << "### Prefiltered: the Gaussian's width. " << subject.name << ", undeformed\n\n";
+  Table table({"gradient_sigma", "full", "half", "quarter"});
+  for (const double sigma : {0.5, 0.75, 1.0, 1.5, 2.0}) {
+    std::vector<std::string> cells = {fixed(sigma, 2)};
+    for (const GradientResolution resolution :
+         {GradientResolution::full, GradientResolution::half, GradientResolution::quarter}) {
+      say("gradients: sigma " + fixed(sigma, 2) + ", " + word(resolution));
+      cells.push_back(error_cell(bench, subject, displays()[0], [&](Scene& scene) {
+        scene.render.gradient = Gradient::prefiltered;
+        scene.render.gradient_resolution = resolution;
+        scene.render.gradient_sigma = sigma;
+      }));
+    }
+    table.row(cells);
+  }
+}
+
+} // namespace
+
+void gradient_section(const Bench& bench) {
+  std::cout
+      << "## Gradients\n\nAngle in degrees between the normal that shading sees and the analytic one of a "
+         "sphere of "
+      << fixed(kRadius, 1) << " voxels' radius in " << kVoxels
+      << "³ voxels: mean, 95th percentile, where rays meet the surface under less than 60°. Rays, spacing "
+      << kSpacing << ", linear-exact, " << kPixels
+      << "² pixels, orthographic, oblique. The sample that is shaded lies up to a step behind the surface, "
+         "which on "
+         "the undeformed sphere turns its normal by at most "
+      << fixed(glm::degrees(kSpacing * std::tan(glm::radians(60.0)) / kRadius), 2)
+      << "°. Fisheye: d = 2 at (0.4, 0.3, 0.55); connected lens: magnification 2 at (0.35, 0.3, 0.55), "
+         "inner 0.12, "
+         "outer 0.3. `data`, `object`: render.gradient_space.\n\n";
+  Subject smooth = sphere_subject("Phantom `ball`: a signed distance in floats",
+                                  make_phantom("ball", {kVoxels, kVoxels, kVoxels}), 0);
+  Subject solid = sphere_subject("Voxels inside or outside, 8 bits", solid_ball(), 127.5);
+  kinds_table(bench, smooth);
+  kinds_table(bench, solid);
+  sigma_table(bench, solid);
+}
+
+} // namespace slicelens::accuracy
