@@ -3,7 +3,8 @@
 //
 // CORRECT_CONSTANT corrects the opacity for one distance ratio; CORRECT_FRAGMENT for the distance along this
 // fragment's own ray (Brunet §3.1). CLASSIFICATION_PRE reads colours that are
-// corrected already. WARP_TESSELLATED divides the homogeneous coordinate that the mesh carries;
+// corrected already. WARP_TESSELLATED divides the homogeneous coordinate that the mesh carries, WARP_SUBDIVIDED
+// also tests where it looks: that mesh is not clipped in the data;
 // WARP_FRAGMENT evaluates the warps here; AXIS_TABLES reads them from Cohen's tables. HIGHLIGHT and ATTENUATION follow the
 // coordinate where the sample is shown; under MIP the winner of the depth test keeps its own.
 
@@ -52,6 +53,9 @@ vec3 direction_to_eye(vec3 p) {
 void main() {
 #if defined(WARP_TESSELLATED)
   vec3 texture_coordinate = homogeneous_coordinate.xyz / homogeneous_coordinate.w;
+#ifdef WARP_SUBDIVIDED
+  if (!in_volume(texture_coordinate) || !in_data_planes(texture_coordinate)) discard;
+#endif
 #elif defined(AXIS_TABLES)
   AxisTexels texels = fetch_axis_tables(object_coordinate);
   vec3 texture_coordinate = axis_texture_from_object(texels, object_coordinate);

@@ -4,6 +4,7 @@
 #include "render/bricks.h"
 #include "scene/camera.h"
 #include "volume/pyramid.h"
+#include "warp/object_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,12 +77,6 @@ WarpMap map_once(PreparedScene& prepared, const Warp& warp, const std::vector<He
   return map;
 }
 
-/// What a grid shows of the box [low, high]: the grid's own box holds what it shows of the volume.
-void include_grid(const BoxSpace& space, const MapGrid& grid, glm::dvec3& low, glm::dvec3& high) {
-  low += glm::min(grid.low, glm::dvec3(0));
-  high += glm::max(grid.high - space.size, glm::dvec3(0));
-}
-
 void prepare_warps(PreparedScene& prepared) {
   prepared.space = box_space(prepared.box);
   prepared.warp_view = warp_view(prepared.view, prepared.box);
@@ -98,28 +93,25 @@ void prepare_warps(PreparedScene& prepared) {
   prepared.maps.clear();
   prepared.lenses.clear();
   prepared.log_zoom = 0;
-  // What the warps so far can show; Cohen's maps keep every box that holds the volume's own.
-  glm::dvec3 low(0);
-  glm::dvec3 high = prepared.space.size;
+  Bounds shown{glm::dvec3(0), prepared.space.size}; // by the warps so far
   for (const Warp& warp : prepared.scene.warp) {
     prepared.maps.push_back(map_once(prepared, warp, before));
-    if (const auto* grid = std::get_if<GridMap>(&prepared.maps.back()))
-      include_grid(prepared.space, *grid->grid, low, high);
+    shown = object_bounds(prepared.maps.back(), shown);
     const auto* lens = std::get_if<LamarLens>(&warp);
     if (lens == nullptr)
       continue;
     prepared.lenses.push_back(
         prepare_lens(*lens, prepared.space, prepared.warp_view, pixels_per_unit(prepared, *lens)));
     prepared.log_zoom = std::max(prepared.log_zoom, std::log(lens->zoom));
-    include_footprint(prepared.lenses.back().map, low, high);
+    include_footprint(prepared.lenses.back().map, shown.low, shown.high);
   }
   refuse_overlap(prepared.lenses);
-  prepared.object_low = texture_from_box(prepared.space, low);
-  prepared.object_high = texture_from_box(prepared.space, high);
+  prepared.object_low = texture_from_box(prepared.space, shown.low);
+  prepared.object_high = texture_from_box(prepared.space, shown.high);
   prepared.map_grid.reset();
   if (prepared.scene.render.pipeline == Pipeline::grid && is_warped(prepared)) {
     prepared.map_grid = GridMap{std::make_shared<const MapGrid>(
-        make_map_grid(prepared.maps, prepared.scene.render.grid_size, low, high))};
+        make_map_grid(prepared.maps, prepared.scene.render.grid_size, shown.low, shown.high))};
   }
 }
 

@@ -2,12 +2,15 @@
 
 #include "image/overlay.h"
 #include "render/overlay_parts.h"
+#include "render/stack_geometry.h"
 #include "render/warp_overlay.h"
 #include "slicing/slice_stack.h"
 #include "tess/overlay_lines.h"
+#include "tess/subdivided_slice.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -27,6 +30,38 @@ PixelLine in_pixels(const PreparedScene& prepared, const View& view, const Polyl
 Polygon central_slice(const PreparedScene& prepared, const LensTessellation& lens) {
   const Plane box_plane{lens.map.forward, glm::dot(lens.map.forward, lens.map.center)};
   return cut_unit_cube({box_plane.normal * prepared.space.size, box_plane.offset});
+}
+
+/// The displayed volume's slice through the box centre, across the view.
+Polygon middle_slice(const PreparedScene& prepared) {
+  const glm::dvec3 extent = prepared.object_high - prepared.object_low;
+  const glm::dvec3 normal = prepared.warp_view.forward * prepared.space.size;
+  Polygon polygon = cut_unit_cube({normal * extent, glm::dot(normal, glm::dvec3(0.5) - prepared.object_low)});
+  for (glm::dvec3& corner : polygon)
+    corner = prepared.object_low + corner * extent;
+  for (const Plane& plane : prepared.object_clip)
+    polygon = clip(polygon, plane);
+  return polygon;
+}
+
+/// The cells of a subdivided slice, on that slice. Their corners are given to each cell, as mesh_edges
+/// expects.
+std::vector<Polyline> cell_edges(const PreparedScene& prepared, bool diagonals) {
+  LensMesh mesh = subdivide_slice(middle_slice(prepared), prepared.maps, prepared.space, prepared.warp_view,
+                                  prepared.scene.render.subdivision);
+  std::vector<std::uint32_t>& corner = mesh.triangles;
+  for (std::size_t i = 0; i + 5 < corner.size(); i += 3) {
+    if (corner[i] != corner[i + 3] || corner[i + 2] != corner[i + 4])
+      continue;
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const std::uint32_t k : {corner[i], corner[i + 1], corner[i + 2], corner[i + 5]})
+      mesh.vertices.push_back(LensVertex(mesh.vertices[k]));
+    const std::array<std::uint32_t, 6> own = {0, 1, 2, 0, 2, 3};
+    for (std::size_t k = 0; k < 6; ++k)
+      corner[i + k] = first + own[k];
+    i += 3;
+  }
+  return mesh_edges(mesh, diagonals);
 }
 
 /// A lattice of the data on the plane through the lens' centre, shown where the lens puts it.
@@ -150,7 +185,7 @@ void draw_overlays(Image& image, const PreparedScene& prepared) {
   for (const LensTessellation& lens : prepared.lenses) {
     if (overlay.lattice > 0)
       draw(carried_lattice(prepared, lens, overlay.lattice), lattice_color);
-    if (overlay.wireframe != Wireframe::none) {
+    if (overlay.wireframe != Wireframe::none && !is_subdivided(prepared)) {
       const LensMesh mesh = tessellate_slice(central_slice(prepared, lens), prepared.lenses, prepared.space,
                                              {prepared.data_clip, prepared.object_clip});
       draw(mesh_edges(mesh, overlay.wireframe == Wireframe::triangles), wireframe_color);
@@ -161,6 +196,8 @@ void draw_overlays(Image& image, const PreparedScene& prepared) {
       draw({outline.inner}, inner_color);
     }
   }
+  if (overlay.wireframe != Wireframe::none && is_subdivided(prepared))
+    draw(cell_edges(prepared, overlay.wireframe == Wireframe::triangles), wireframe_color);
   // Warps without triangles, and the regions of highlight and attenuation.
   if (overlay.lattice > 0 && prepared.lenses.empty() && !prepared.maps.empty())
     draw(carried_lattice(prepared, overlay.lattice), lattice_color);

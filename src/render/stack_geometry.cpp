@@ -3,8 +3,10 @@
 #include "core/errors.h"
 #include "render/bricks.h"
 #include "slicing/slice_stack.h"
+#include "tess/subdivided_slice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace slicelens {
@@ -38,7 +40,24 @@ void append_tiles(StackGeometry& geometry, const LensMesh& mesh, const TileCuts&
   }
 }
 
+/// Refuses meshes that would take gigabytes before they are made.
+void check_cells(const SliceStack& stack, std::size_t subdivision) {
+  constexpr double most = 3e7;
+  const auto edge = static_cast<double>(subdivision);
+  const double cells = static_cast<double>(stack.slices.size()) * edge * edge;
+  if (cells > most) {
+    throw LimitError("render.subdivision " + std::to_string(subdivision) +
+                     " makes more than 30 million cells of " + std::to_string(stack.slices.size()) +
+                     " slices; make it smaller or render.spacing larger");
+  }
+}
+
 } // namespace
+
+bool is_subdivided(const PreparedScene& prepared) {
+  return prepared.scene.render.pipeline == Pipeline::tessellated && is_warped(prepared) &&
+         prepared.lenses.size() != prepared.maps.size();
+}
 
 StackGeometry make_stack_geometry(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
@@ -61,6 +80,8 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
     request.high = prepared.object_high;
   }
   const SliceStack stack = make_slice_stack(request);
+  if (is_subdivided(prepared))
+    check_cells(stack, render.subdivision);
 
   StackGeometry geometry;
   const LensClip clip{prepared.data_clip, prepared.object_clip};
@@ -69,7 +90,9 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
     const Polygon polygon(stack.corners.begin() + slice.first,
                           stack.corners.begin() + slice.first + slice.count);
     LensMesh mesh;
-    if (!warped || !lenses_only) {
+    if (is_subdivided(prepared)) {
+      mesh = subdivide_slice(polygon, prepared.maps, prepared.space, prepared.warp_view, render.subdivision);
+    } else if (!warped || !lenses_only) {
       mesh = cover_slice(polygon, {}, prepared.space, {});
     } else if (render.pipeline == Pipeline::fragment || render.pipeline == Pipeline::grid) {
       mesh = cover_slice(polygon, prepared.lenses, prepared.space, prepared.object_clip);
@@ -86,9 +109,15 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
 }
 
 glm::dmat4 clip_from_texture(const PreparedScene& prepared) {
-  // Depth is not used; near and far need only hold the box.
+  // Depth is not used; near and far need only hold what is displayed.
   const double middle = depth(prepared.view, center(prepared.box));
-  const double radius = bounding_radius(prepared.box);
+  double radius = bounding_radius(prepared.box);
+  for (int k = 0; k < 8; ++k) {
+    const glm::dvec3 corner =
+        glm::mix(prepared.object_low, prepared.object_high, glm::dvec3(k & 1, k >> 1 & 1, k >> 2 & 1));
+    radius =
+        std::max(radius, std::abs(depth(prepared.view, world_from_texture(prepared.box, corner)) - middle));
+  }
   double near = middle - 1.01 * radius;
   const double far = std::max(middle + 1.01 * radius, near + radius);
   if (prepared.view.projection == Projection::perspective)

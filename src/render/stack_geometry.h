@@ -31,8 +31,13 @@ struct StackGeometry {
   std::vector<TileBatch> batches;
 };
 
+/// Whether pipeline `tessellated` cuts slices into regular cells: for every list of warps but LaMar's lenses,
+/// which have a mesh of their own.
+bool is_subdivided(const PreparedScene& prepared);
+
 /// Cuts the stack for the scene's view and pipeline: plain polygons, lens triangles, or covers for lenses
-/// evaluated at each fragment. Throws UsageError for a spacing that is too fine.
+/// evaluated at each fragment. Throws UsageError for a spacing that is too fine, LimitError for too many
+/// cells.
 StackGeometry make_stack_geometry(const PreparedScene& prepared);
 
 /// Where the corners land: OpenGL clip coordinates of texture coordinates of the displayed volume.

@@ -1,6 +1,7 @@
 #include "render/uniforms.h"
 
 #include "render/grid_textures.h"
+#include "render/stack_geometry.h"
 #include "render/tiled_draw.h"
 #include "render/warp_glsl.h"
 #include "scene/names.h"
@@ -68,6 +69,8 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("WARPED");
     if (render.pipeline == Pipeline::tessellated)
       macros.emplace_back("WARP_TESSELLATED");
+    if (is_subdivided(prepared))
+      macros.emplace_back("WARP_SUBDIVIDED");
     if (render.pipeline == Pipeline::fragment || render.pipeline == Pipeline::grid)
       macros.emplace_back("WARP_FRAGMENT");
   }

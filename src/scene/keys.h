@@ -101,6 +101,10 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key("axis_texels", s.axis_texels,
             "texels of each 1D texture of pipeline axis, 16 to 4096 (none: one for each voxel)");
   visit.key("axis_filter", s.axis_filter, "how pipeline axis reads its 1D textures: linear or nearest");
+  visit.key("subdivision", s.subdivision,
+            "cells along the longest edge of each slice in pipeline tessellated, 1 to 512; a list of lamar "
+            "lenses has "
+            "its own mesh");
   visit.per_axis("grid_size", s.grid_size,
                  "nodes of pipeline grid's 3D texture, 8 to 128; one number or one for each axis",
                  Range::positive);
@@ -186,6 +190,82 @@ void lens_box_keys(Visitor& visit, Settings& s) {
 }
 
 template <class Visitor, class Settings>
+void shift_keys(Visitor& visit, Settings& s) {
+  visit.key("offset", s.offset, "of the displayed volume, fractions of the box's longest edge");
+}
+
+template <class Visitor, class Settings>
+void sine_keys(Visitor& visit, Settings& s) {
+  visit.key("axis", s.axis, "x, y or z: points move along it");
+  visit.key("along", s.along, "x, y or z: by a sine of their place along this one");
+  visit.key("amplitude", s.amplitude, "as a fraction of the box's longest edge");
+  visit.key("wavelength", s.wavelength, "likewise", Range::positive);
+  visit.key("phase", s.phase, "degrees");
+}
+
+template <class Visitor, class Settings>
+void twist_keys(Visitor& visit, Settings& s) {
+  visit.key("axis", s.axis, "x, y or z: turned about it");
+  visit.key("center", s.center, "a point of the axis where nothing turns, texture coordinates");
+  visit.key("angle", s.angle, "degrees over the box's length along the axis");
+}
+
+template <class Visitor, class Settings>
+void bend_keys(Visitor& visit, Settings& s) {
+  visit.key("axis", s.axis, "x, y or z: the piece that becomes an arc lies along it");
+  visit.key("toward", s.toward, "x, y, z, -x, -y or -z: where its ends go");
+  visit.key("center", s.center, "middle of the arc, texture coordinates");
+  visit.key("angle", s.angle, "of the arc, degrees; a piece as long as the box; straight on beyond it");
+}
+
+template <class Visitor, class Settings>
+void pulse_keys(Visitor& visit, Settings& s) {
+  visit.key("center", s.center, "texture coordinates");
+  visit.key("radius", s.radius, "of the sphere of influence, as a fraction of the box's longest edge",
+            Range::positive);
+  visit.key("magnification", s.magnification, "at the centre, at the height of the pulse", Range::positive);
+  visit.key("phase", s.phase, "of the pulse: 0 and 1 none, 1/2 its height", Range::unit);
+}
+
+template <class Visitor, class Settings>
+void spreader_keys(Visitor& visit, Settings& s) {
+  visit.key("axis", s.axis, "x, y or z: across the cut");
+  visit.key("toward", s.toward, "x, y, z, -x, -y or -z: from the hinge out of the cut");
+  visit.key("center", s.center, "a point of the hinge, texture coordinates");
+  visit.key("angle", s.angle, "of the opened wedge, degrees");
+  visit.key("gap", s.gap, "by which both sides are pushed apart, as a fraction of the box's longest edge",
+            Range::non_negative);
+}
+
+template <class Visitor, class Settings>
+void leafer_keys(Visitor& visit, Settings& s) {
+  visit.key("axis", s.axis, "x, y, z, -x, -y or -z: through the stack of leaves; the first one stays");
+  visit.key("toward", s.toward,
+            "x, y, z, -x, -y or -z: from the spine, an edge of the box, across the leaves");
+  visit.key("leaves", s.leaves, "how many, 2 to 64");
+  visit.key("angle", s.angle, "between the first and the last leaf, degrees");
+}
+
+template <class Visitor, class Settings>
+void peeler_keys(Visitor& visit, Settings& s) {
+  visit.key("axis", s.axis, "x, y, z, -x, -y or -z: along the layer, from the centre on");
+  visit.key("toward", s.toward, "x, y, z, -x, -y or -z: out of the layer, from the centre to the surface");
+  visit.key("center", s.center, "where the layer begins, texture coordinates");
+  visit.key("radius", s.radius,
+            "of the roll, as a fraction of the box's longest edge; larger than the layer is thick",
+            Range::positive);
+  visit.key("angle", s.angle, "of the roll, degrees; straight on after it");
+}
+
+template <class Visitor, class Settings>
+void expander_keys(Visitor& visit, Settings& s) {
+  visit.key("center", s.center, "texture coordinates");
+  visit.key("opening", s.opening, "radius of the empty ball, as a fraction of the box's longest edge",
+            Range::non_negative);
+  visit.key("radius", s.radius, "beyond which nothing moves, likewise", Range::positive);
+}
+
+template <class Visitor, class Settings>
 void landmark_keys(Visitor& visit, Settings& s) {
   visit.key(
       "file", s.file,
@@ -228,6 +308,24 @@ void warp_keys(Visitor& visit, AnyWarp& warp) {
           bifocal_keys(visit, value);
         else if constexpr (std::is_same_v<Kind, Fisheye>)
           fisheye_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Shift>)
+          shift_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Sine>)
+          sine_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Twist>)
+          twist_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Bend>)
+          bend_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Pulse>)
+          pulse_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Spreader>)
+          spreader_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Leafer>)
+          leafer_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Peeler>)
+          peeler_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Expander>)
+          expander_keys(visit, value);
         else if constexpr (std::is_same_v<Kind, Landmarks>)
           landmark_keys(visit, value);
         else if constexpr (std::is_same_v<Kind, Field>)

@@ -152,6 +152,18 @@ const std::vector<EnumName<Wireframe>>& names_of(Wireframe) {
   return names;
 }
 
+const std::vector<EnumName<Axis>>& names_of(Axis) {
+  static const std::vector<EnumName<Axis>> names = {{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}};
+  return names;
+}
+
+const std::vector<EnumName<Direction>>& names_of(Direction) {
+  static const std::vector<EnumName<Direction>> names = {
+      {Direction::x, "x"},        {Direction::y, "y"},        {Direction::z, "z"},
+      {Direction::minus_x, "-x"}, {Direction::minus_y, "-y"}, {Direction::minus_z, "-z"}};
+  return names;
+}
+
 const std::vector<EnumName<LandmarkSpace>>& names_of(LandmarkSpace) {
   static const std::vector<EnumName<LandmarkSpace>> names = {{LandmarkSpace::world, "world"},
                                                              {LandmarkSpace::texture, "texture"}};

@@ -161,6 +161,10 @@ void validate_warps(const Scene& scene) {
     throw UsageError("overlay.wireframe shows the triangles of a lens; pipeline '" + pipeline +
                      "' has none, give tessellated or fixed-function");
   }
+  if (scene.render.subdivision < 1 || scene.render.subdivision > max_subdivision) {
+    throw UsageError("render.subdivision must be from 1 to " + std::to_string(max_subdivision) + ", not " +
+                     std::to_string(scene.render.subdivision));
+  }
   for (const std::size_t nodes : scene.render.grid_size) {
     if (nodes < smallest_grid_size || nodes > max_grid_nodes) {
       throw UsageError("render.grid_size must be from " + std::to_string(smallest_grid_size) + " to " +

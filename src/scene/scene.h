@@ -97,6 +97,8 @@ struct RenderSettings {
   std::optional<std::size_t> axis_texels =
       std::nullopt; ///< of each table of `axis`; none: one for each voxel
   AxisFilter axis_filter = AxisFilter::linear;
+  std::size_t subdivision =
+      32; ///< of `tessellated` without LaMar's own mesh: cells along a slice's longest edge
   std::array<std::size_t, 3> grid_size{32, 32, 32}; ///< nodes of `grid` on each axis
   double early_termination = 1;                     ///< rays stop when their opacity reaches this; 1: never
   glm::dvec4 background{0, 0, 0, 1};
@@ -176,6 +178,8 @@ inline constexpr std::size_t max_planes_shown = 16;
 inline constexpr std::size_t max_tiles = 1024;    ///< in all
 inline constexpr std::size_t min_tile_voxels = 4; ///< on each axis of a tile
 inline constexpr std::size_t max_levels = 8;
+/// Of render.subdivision.
+inline constexpr std::size_t max_subdivision = 512;
 /// Limit of render.grid_size; the upper one is max_grid_nodes.
 inline constexpr std::size_t smallest_grid_size = 8;
 

@@ -119,6 +119,10 @@ glm::dmat3 jacobian(const ConnectedLensMap& map, const glm::dvec3& p) {
   return ConnectedFunctions().connected_lens_jacobian(map, p);
 }
 
+int piece_of(const VolumeLensMap& map, const glm::dvec3& p) {
+  return BoxFunctions().volume_lens_masks(map, texture_from_box({map.size, 1}, p)) ? 1 : 0;
+}
+
 glm::dvec3 object_from_texture(const VolumeLensMap& map, const glm::dvec3& u) {
   glm::dvec3 t = texture_from_box({map.size, 1}, u);
   if (!BoxFunctions().volume_lens_masks(map, t))

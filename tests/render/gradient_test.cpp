@@ -170,20 +170,22 @@ TEST_CASE("coarser copies, other sigmas and filters are the reference's as well"
   }
 }
 
-TEST_CASE("tables and tessellations take the gradients of the exact map", "[one-driver]") {
+TEST_CASE("tables, grids and tessellations take the gradients of the exact map", "[one-driver]") {
   gl::Context context = test_context();
   for (const std::string space : {"data", "object"}) {
     for (const std::string& gradient : {forward, central, prefiltered, precomputed}) {
       if (space == "object" && gradient == precomputed)
         continue;
       for (const auto& [warp, pipeline] :
-           {std::pair(lamar, std::string("tessellated")), std::pair(connected, std::string("axis"))}) {
-        const PreparedScene scene = changed(
-            head_scene(warp, false), {"render.shading=phong", gradient, "render.gradient_space=" + space});
+           {std::pair(lamar, std::string("tessellated")), std::pair(connected, std::string("axis")),
+            std::pair(connected, std::string("grid"))}) {
+        const PreparedScene scene = changed(head_scene(warp, false), {"render.shading=phong", gradient,
+                                                                      "render.gradient_space=" + space,
+                                                                      "render.grid_size=[65,65,65]"});
         const double decibels = psnr(picture(changed(scene, {"render.pipeline=" + pipeline}), context),
                                      picture(changed(scene, {"render.pipeline=fragment"}), context));
         INFO(pipeline << " " << space << " " << gradient << ": " << decibels);
-        // Chords of a circle, and texels of a table (docs/tolerances.md).
+        // Chords of a circle, texels of a table and nodes of a grid (docs/tolerances.md).
         CHECK(decibels >= 42);
       }
     }

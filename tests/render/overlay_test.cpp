@@ -247,3 +247,26 @@ TEST_CASE("overlays that cannot be drawn are refused") {
       scene_from_json(R"({"render":{"pipeline":"rays"},"warp":{"kind":"lamar","homogeneous":false}})", "s"),
       UsageError);
 }
+
+TEST_CASE("the wireframe of a subdivided slice shows its cells, and their diagonals as triangles") {
+  // A shift by nothing: 4 x 4 cells on the unit square, whose middle is a node.
+  for (const bool triangles : {false, true}) {
+    const PreparedScene scene = face_on(std::string(R"("line_width":3,"wireframe":)") +
+                                            (triangles ? R"("triangles")" : R"("segments")"),
+                                        R"({"kind":"shift","offset":[0,0,0]})");
+    PreparedScene four = scene;
+    four.scene.render.subdivision = 4;
+    Image image = make_image(size, size);
+    draw_overlays(image, four);
+    const double cell = unit(scene) / 4;
+    const auto lit = [&](double column, double row) {
+      return !is_color(image, 100 + cell * column, 100 - cell * row, {0, 0, 0});
+    };
+    CHECK(lit(0, 0.4));
+    CHECK(lit(0.4, 1));
+    CHECK(lit(-2, 0.7)); // the outline
+    CHECK_FALSE(lit(0.3, 0.7));
+    CHECK(lit(0.5, 0.5) == triangles); // from corner to corner of a cell
+    CHECK_FALSE(lit(2.5, 0));
+  }
+}

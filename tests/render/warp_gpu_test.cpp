@@ -128,9 +128,9 @@ Largest compare(int shaders, const std::function<std::vector<WarpMap>(BoxSpace&)
     const auto results = computed(context.functions(), maps, space, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const glm::dvec3 p(points[i]);
-      if (near_crease(maps, p))
-        continue;
       const glm::dvec3 u = texture_from_object(maps, p);
+      if (near_crease(maps, p) || near_cut(maps, p, 1e-5) || warp_cases::is_nowhere(u))
+        continue;
       const glm::dmat3 exact = jacobian(maps, p);
       const glm::dmat3 single(results[1][i], results[2][i], results[3][i]);
       largest.map = std::max(largest.map, glm::length(results[0][i] - u));
@@ -190,7 +190,11 @@ TEST_CASE("a chain of all warps on the GPU is the CPU's within 1e-5") {
     space = box_space(box);
     std::vector<WarpMap> maps;
     for (const WarpInfo& info : warp_infos()) {
-      const Warp warp = warp_cases::default_warp(info.kind, space);
+      Warp warp = warp_cases::default_warp(info.kind, space);
+      if (has_cuts(map_of(warp, space, {})) && info.kind != "volume-lens" && info.kind != "bend")
+        continue; // of a chain with all of them little would be left to compare; below they are one by one
+      if (info.kind == "bend" || info.kind == "twist")
+        warp = warp_cases::random_warp(info.kind, space); // the defaults may fold a flat box
       maps.push_back(map_of(warp, space, warp_view(lens_cases::random_view(box), box)));
     }
     return maps;

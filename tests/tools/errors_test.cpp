@@ -163,13 +163,29 @@ TEST_CASE("Cohen's warps and effects: what cannot be drawn ends with 2 and says 
           {"'slices'", "attenuation"});
   refused(with(highlight, {"render.classification=pre"}),
           {"render.classification", "pre", "highlight", "post"});
-  for (const std::string pipeline : {"slices", "tessellated", "fixed-function"})
+  for (const std::string pipeline : {"slices", "fixed-function"})
     refused({"warp=" + fisheye, "render.pipeline=" + pipeline}, {"'" + pipeline + "'", "'fisheye'", "axis"});
   refused({"warp=" + fisheye, "render.levels=2"}, {"render.levels", "'fisheye'"});
   refused({"warp=" + fisheye, "render.tiles=[2,1,1]"}, {"'axis'", "tiles"});
   refused({R"(warp={"kind":"fishy"})"}, {"fishy", "fisheye"});
   refused({R"(warp={"kind":"fisheye","distorsion":2})"}, {"distorsion", "distortion"});
   CHECK(place.entries() == Words{"s.json"});
+}
+
+TEST_CASE("deformations and widgets: what folds or is none ends with 2 and says why") {
+  const Workplace place;
+  put(place / "s.json", small_scene);
+  const auto refused = [&](const std::string& warp, const Words& named) {
+    check_refused(place, {"render", "s.json", "--set", "warp=" + warp}, 2, named);
+  };
+  refused(R"({"kind":"bend","angle":130})", {"'bend'", "angle", "folds", "114.5"});
+  refused(R"({"kind":"peeler","radius":0.3})", {"'peeler'", "radius", "folds", "0.5"});
+  refused(R"({"kind":"pulse","magnification":0.2})", {"'pulse'", "magnification", "folds", "0.25"});
+  refused(R"({"kind":"sine","axis":"x","along":"x"})", {"'sine'", "axis", "along"});
+  refused(R"({"kind":"sine","wavelength":0})", {"warp.wavelength", "above 0"});
+  refused(R"({"kind":"bend","toward":"-w"})", {"warp.toward", "-w", "-x"});
+  refused(R"({"kind":"leafer","leaves":1})", {"'leafer'", "leaves", "2"});
+  refused(R"({"kind":"twist","angel":90})", {"angel", "angle"});
 }
 
 TEST_CASE("files that are missing or damaged end with 1 and are named") {

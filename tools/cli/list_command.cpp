@@ -34,7 +34,7 @@ void list_contexts() {
 
 void list_pipelines() {
   row("slices", "view-aligned textured slices, blended (OpenGL); the default");
-  row("tessellated", "slices cut into triangles that carry a lens at their corners (OpenGL)");
+  row("tessellated", "slices cut into triangles that carry a lens, or any warp, at their corners (OpenGL)");
   row("axis", "slices whose warp and effects are read from a 1D texture for each axis (OpenGL)");
   row("fragment", "slices whose warps are evaluated at each fragment (OpenGL)");
   row("grid", "slices whose warps are sampled into a 3D texture that each fragment looks up (OpenGL)");
