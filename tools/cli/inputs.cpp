@@ -6,6 +6,7 @@
 #include "image/image_io.h"
 #include "scene/image_scene.h"
 #include "scene/load.h"
+#include "scene/load_warps.h"
 #include "scene/scene_json.h"
 
 #include <algorithm>
@@ -112,7 +113,9 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
   if (sha256 != nullptr)
     *sha256 = hash;
   TransferFunction transfer = transfer_of(input.scene, volume);
-  return prepare(input.scene, std::move(volume), std::move(transfer));
+  Scene scene = input.scene;
+  load_warp_files(scene, input.folders, progress);
+  return prepare(std::move(scene), std::move(volume), std::move(transfer));
 }
 
 void open_context(OpenContext& context, const Scene& scene) {

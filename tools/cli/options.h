@@ -63,6 +63,16 @@ struct GalleryOptions {
   std::vector<std::string> set;
 };
 
+struct WarpOptions {
+  std::string input;
+  std::string output; ///< .nrrd, .nhdr, .mha or .mhd
+  std::vector<std::string> set;
+  std::vector<std::size_t> size; ///< voxels; empty: the volume's own
+  bool as_float = false;
+  std::optional<double> outside;
+  bool compress = false;
+};
+
 struct PlotOptions {
   std::string input;
   std::string output; ///< .svg or .png
@@ -99,6 +109,7 @@ void run_phantom(const PhantomOptions& options);
 void run_list(const ListOptions& options);
 void run_gallery(const GalleryOptions& options);
 void run_plot(const PlotOptions& options);
+void run_warp(const WarpOptions& options);
 void run_pick(const PickOptions& options);
 void run_slice(const SliceOptions& options);
 
