@@ -21,6 +21,6 @@ void main() {
 #else
   vec3 t = object_coordinate;
 #endif
-  if (any(lessThan(t, vec3(0.0))) || any(greaterThan(t, vec3(1.0)))) discard;
+  if (any(lessThan(t, vec3(0.0))) || any(greaterThan(t, vec3(1.0))) || !plane_shows(plane, t)) discard;
   result = vec4(plane_color(plane, t), 1.0);
 }

@@ -96,7 +96,7 @@ vec4 nearest_plane(PixelRay ray, vec2 interval, inout float nearest) {
     vec3 t = p;
     bool inside = true;
 #endif
-    if (inside && s >= interval.x && s <= interval.y && s < nearest) {
+    if (inside && s >= interval.x && s <= interval.y && s < nearest && plane_shows(planes[i], t)) {
       nearest = s;
       color = vec4(plane_color(planes[i], t), 1.0);
     }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace slicelens {
 
@@ -50,6 +51,32 @@ void include_footprint(const LamarMap& map, glm::dvec3& low, glm::dvec3& high) {
   }
 }
 
+/// The warp as one that is held in a grid, or nothing.
+std::optional<std::variant<Landmarks, Field>> gridded(const Warp& warp) {
+  if (const auto* landmarks = std::get_if<Landmarks>(&warp))
+    return *landmarks;
+  if (const auto* field = std::get_if<Field>(&warp))
+    return *field;
+  return std::nullopt;
+}
+
+/// map_of, or what it gave before for the same landmarks or field: found in `before` and kept in
+/// prepared.held.
+WarpMap map_once(PreparedScene& prepared, const Warp& warp, const std::vector<HeldWarp>& before) {
+  const auto own = gridded(warp);
+  if (!own)
+    return map_of(warp, prepared.space, prepared.warp_view);
+  for (const HeldWarp& held : before) {
+    if (held.warp == *own && held.space == prepared.space) {
+      prepared.held.push_back(held);
+      return held.map;
+    }
+  }
+  const auto map = std::get<GridMap>(map_of(warp, prepared.space, prepared.warp_view));
+  prepared.held.push_back({*own, prepared.space, map});
+  return map;
+}
+
 void prepare_warps(PreparedScene& prepared) {
   prepared.space = box_space(prepared.box);
   prepared.warp_view = warp_view(prepared.view, prepared.box);
@@ -62,12 +89,13 @@ void prepare_warps(PreparedScene& prepared) {
         "warp '" + kind_of(prepared.scene.warp[0]) +
         "' needs a volume with axes at right angles; this one is sheared (a tilted gantry, for instance)");
   }
+  const std::vector<HeldWarp> before = std::exchange(prepared.held, {});
   prepared.maps.clear();
   prepared.lenses.clear();
   prepared.log_zoom = 0;
   Bounds shown{glm::dvec3(0), prepared.space.size}; // by the warps so far
   for (const Warp& warp : prepared.scene.warp) {
-    prepared.maps.push_back(map_of(warp, prepared.space, prepared.warp_view));
+    prepared.maps.push_back(map_once(prepared, warp, before));
     shown = object_bounds(prepared.maps.back(), shown);
     const auto* lens = std::get_if<LamarLens>(&warp);
     if (lens == nullptr)

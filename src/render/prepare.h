@@ -10,9 +10,19 @@
 #include "warp/axis_tables.h"
 #include "warp/warp_grid.h"
 
+#include <optional>
+#include <variant>
 #include <vector>
 
 namespace slicelens {
+
+/// The map of landmarks or a field, kept as long as they and the volume's box stay the same: the view does
+/// not change it.
+struct HeldWarp {
+  std::variant<Landmarks, Field> warp;
+  BoxSpace space;
+  GridMap map;
+};
 
 /// Lengths are in world units. Plain data: change the scene, prepare again.
 struct PreparedScene {
@@ -32,6 +42,7 @@ struct PreparedScene {
   std::vector<LensTessellation> lenses;               ///< those of kind `lamar`
   FocusEffects effects{};                             ///< highlight and attenuation for this view
   AxisTables tables;                                  ///< pipeline `axis` only
+  std::vector<HeldWarp> held;                         ///< of the landmarks and fields among the warps
   std::optional<GridMap> map_grid;                    ///< pipeline `grid` only: all of `maps` in one
   GradientSpace gradient_space = GradientSpace::data; ///< where the differences of shading are taken
   double log_zoom = 0;         ///< ln of their largest zoom, for render.levels; 0 without a lens

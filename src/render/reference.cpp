@@ -228,9 +228,12 @@ struct Tracer : SharedFunctions {
       const bool warped = is_warped(prepared);
       if (!(s >= interval.x && s <= interval.y) || (warped && !inside))
         continue;
-      interval.y = s;
       const real value = displayed_value(t);
-      const vec3 grey(std::clamp(plane.grey.x * value + plane.grey.y, 0.0, 1.0));
+      const real shade = plane.grey.x * value + plane.grey.y;
+      if (!plane.classified && shade < 0) // below black
+        continue;
+      interval.y = s;
+      const vec3 grey(std::min(shade, 1.0));
       color = vec4(plane.classified ? vec3(evaluate(prepared.transfer, value)) : grey, 1);
     }
     return color;

@@ -139,7 +139,9 @@ void plane_keys(Visitor& visit, Settings& s) {
   visit.key("point", s.point, "a point of the plane, texture coordinates of the displayed volume");
   visit.key("normal", s.normal, "world vector");
   visit.key("style", s.style, "values (grey) or transfer (the transfer function's colours, opaque)");
-  visit.key("range", s.range, "[black, white] of the grey in data units (none: the data's range)");
+  visit.key("range", s.range,
+            "[black, white] of the grey in data units (none: the data's range); what lies below black is not "
+            "drawn");
 }
 
 template <class Visitor, class Settings>
@@ -265,6 +267,37 @@ void expander_keys(Visitor& visit, Settings& s) {
   visit.key("radius", s.radius, "beyond which nothing moves, likewise", Range::positive);
 }
 
+template <class Visitor, class Settings>
+void landmark_keys(Visitor& visit, Settings& s) {
+  visit.key(
+      "file", s.file,
+      "pairs of points: .json [[[sx,sy,sz],[tx,ty,tz]], …] or .csv sx,sy,sz,tx,ty,tz; source in the data, "
+      "target where it is shown");
+  visit.key("source", s.source, "list of source points: .json, .csv, 3D Slicer's .fcsv or .mrk.json");
+  visit.key("target", s.target, "list of target points in the same order, likewise; excludes file");
+  visit.key("pairs", s.pairs, "[[[sx,sy,sz],[tx,ty,tz]], …] in the scene itself; excludes file");
+  visit.key("space", s.space, "of the points: world (LPS, the data's unit) or texture (coordinates)");
+  visit.key("method", s.method, "tps (thin-plate spline) or bspline (multilevel B-spline)");
+  visit.key("stiffness", s.stiffness,
+            "tps: 0 hits every landmark, more bends less; a fraction of the longest edge",
+            Range::non_negative);
+  visit.key("levels", s.levels, "bspline: levels, 1 to 8; each halves the spans of the one before");
+  visit.key("resolution", s.resolution, "nodes on each axis of the grid that holds the map, 8 to 128");
+}
+
+template <class Visitor, class Settings>
+void field_keys(Visitor& visit, Settings& s) {
+  visit.key("file", s.file,
+            "NRRD, MetaImage or NIfTI with three components a voxel: displacements in world units (LPS)");
+  visit.key(
+      "direction", s.direction,
+      "inverse (a shown point p looks at p + D(p)) or forward (the data's point x is shown at x + D(x))");
+  visit.key(
+      "vectors", s.vectors,
+      "axes of the file's vectors: auto (ITK's rule: RAS in NIfTI of intent 1006, else LPS), lps or ras");
+  visit.key("resolution", s.resolution, "nodes on each axis of the grid that holds the map, 8 to 128");
+}
+
 /// Calls the key function of the warp's kind.
 template <class Visitor, class AnyWarp>
 void warp_keys(Visitor& visit, AnyWarp& warp) {
@@ -295,6 +328,10 @@ void warp_keys(Visitor& visit, AnyWarp& warp) {
           peeler_keys(visit, value);
         else if constexpr (std::is_same_v<Kind, Expander>)
           expander_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Landmarks>)
+          landmark_keys(visit, value);
+        else if constexpr (std::is_same_v<Kind, Field>)
+          field_keys(visit, value);
         else
           lens_box_keys(visit, value.box);
       },

@@ -165,6 +165,12 @@ inline Json written(const AxisRanges& value) {
     list.push_back(written(range));
   return list;
 }
+inline Json written(const std::vector<LandmarkPair>& value) {
+  Json list = Json::array();
+  for (const LandmarkPair& pair : value)
+    list.push_back(Json::array({written(pair[0]), written(pair[1])}));
+  return list;
+}
 template <class T>
 Json written(const std::optional<T>& value) {
   return value ? written(*value) : Json(nullptr);

@@ -164,6 +164,30 @@ const std::vector<EnumName<Direction>>& names_of(Direction) {
   return names;
 }
 
+const std::vector<EnumName<LandmarkSpace>>& names_of(LandmarkSpace) {
+  static const std::vector<EnumName<LandmarkSpace>> names = {{LandmarkSpace::world, "world"},
+                                                             {LandmarkSpace::texture, "texture"}};
+  return names;
+}
+
+const std::vector<EnumName<LandmarkMethod>>& names_of(LandmarkMethod) {
+  static const std::vector<EnumName<LandmarkMethod>> names = {{LandmarkMethod::tps, "tps"},
+                                                              {LandmarkMethod::bspline, "bspline"}};
+  return names;
+}
+
+const std::vector<EnumName<FieldDirection>>& names_of(FieldDirection) {
+  static const std::vector<EnumName<FieldDirection>> names = {{FieldDirection::inverse, "inverse"},
+                                                              {FieldDirection::forward, "forward"}};
+  return names;
+}
+
+const std::vector<EnumName<FieldVectors>>& names_of(FieldVectors) {
+  static const std::vector<EnumName<FieldVectors>> names = {
+      {FieldVectors::automatic, "auto"}, {FieldVectors::lps, "lps"}, {FieldVectors::ras, "ras"}};
+  return names;
+}
+
 const std::vector<EnumName<PlaneStyle>>& names_of(PlaneStyle) {
   static const std::vector<EnumName<PlaneStyle>> names = {{PlaneStyle::values, "values"},
                                                           {PlaneStyle::transfer, "transfer"}};

@@ -40,6 +40,10 @@ const std::vector<EnumName<PlaneStyle>>& names_of(PlaneStyle);
 const std::vector<EnumName<LensBorder>>& names_of(LensBorder);
 const std::vector<EnumName<Axis>>& names_of(Axis);
 const std::vector<EnumName<Direction>>& names_of(Direction);
+const std::vector<EnumName<LandmarkSpace>>& names_of(LandmarkSpace);
+const std::vector<EnumName<LandmarkMethod>>& names_of(LandmarkMethod);
+const std::vector<EnumName<FieldDirection>>& names_of(FieldDirection);
+const std::vector<EnumName<FieldVectors>>& names_of(FieldVectors);
 
 /// The word of an enumerator.
 template <class Enum>

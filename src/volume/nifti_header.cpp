@@ -297,6 +297,7 @@ NiftiHeader scan_nifti(const fs::path& given) {
   if (f.intent >= 3000 && f.intent < 3100)
     throw FileError(path.string(), "'intent_code' " + std::to_string(f.intent) +
                                        " is CIFTI (values on brain surfaces), which is no volume");
+  header.intent = f.intent;
   set_type(path, f.datatype, header);
   const std::uintmax_t unit =
       size_of(header.stored_type) * static_cast<std::uintmax_t>(header.components_in_voxel);

@@ -24,6 +24,7 @@ struct NiftiHeader {
   std::uintmax_t data_offset = 0;
   double slope = 1;     ///< value = slope · stored + intercept
   double intercept = 0; ///< 0 with slope 1: stored values are the values
+  int intent = 0;       ///< nifti1.h's code
   bool sheared = false; ///< the axes that `affine` gives are not perpendicular
   glm::dmat4 affine{1}; ///< LPS world, in mm, from voxel index (sform, else qform, else voxel sizes)
 };

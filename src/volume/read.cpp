@@ -251,6 +251,13 @@ Volume read_volume(const VolumeSource& source, const Progress& progress) {
   return volume;
 }
 
+bool has_ras_displacements(const fs::path& file) {
+  constexpr int displacement_vectors = 1006; // nifti1.h, NIFTI_INTENT_DISPVECT
+  VolumeSource source;
+  source.file = file;
+  return kind_of(source, file) == Kind::nifti && scan_nifti(file).intent == displacement_vectors;
+}
+
 std::vector<fs::path> files_of(const VolumeSource& source) {
   const Input input = resolve(source);
   std::vector<fs::path> files = {source.file};

@@ -56,6 +56,11 @@ Volume read_volume(const VolumeSource& source, const Progress& progress = {});
 /// sorted order, a stack in natural order. Throws as read_volume does.
 std::vector<std::filesystem::path> files_of(const VolumeSource& source);
 
+/// Whether the file is NIfTI of intent 1006 (NIFTI_INTENT_DISPVECT), whose vectors are along R, A and S.
+/// Those of other files are along L, P and S where ITK wrote them, in NIfTI of intent 1007 as well. Throws as
+/// read_volume.
+bool has_ras_displacements(const std::filesystem::path& file);
+
 /// SHA-256 in lower-case hexadecimal: of the file's bytes for one file; for several the SHA-256 of their
 /// binary digests concatenated in the given order, so that names and folders do not matter but the order
 /// does. Throws FileError when a file cannot be read.

@@ -7,7 +7,12 @@ namespace slicelens {
 BoxSpace box_space(const Box& box) {
   const glm::dvec3 edges = extent(box);
   const double longest = std::max({edges.x, edges.y, edges.z});
-  return {edges / longest, longest};
+  BoxSpace space{edges / longest, longest};
+  glm::dmat4 scaling(1);
+  for (int axis = 0; axis < 3; ++axis)
+    scaling[axis][axis] = space.size[axis];
+  space.box_from_world = scaling * texture_from_world(box);
+  return space;
 }
 
 glm::dvec3 box_from_texture(const BoxSpace& space, const glm::dvec3& t) { return t * space.size; }

@@ -13,6 +13,9 @@ namespace slicelens {
 struct BoxSpace {
   glm::dvec3 size{1}; ///< extent / longest edge: the far corner of the box, each in (0, 1]
   double longest = 1; ///< world units in one unit of box space
+  glm::dmat4 box_from_world{1};
+
+  bool operator==(const BoxSpace&) const = default;
 };
 
 BoxSpace box_space(const Box& box);

@@ -129,18 +129,21 @@ glm::dvec3 object_from_texture(const GridMap& map, const glm::dvec3& u) {
   return p;
 }
 
-void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high) {
-  constexpr std::size_t n = 17;
-  const MapGrid grid = make_map_grid(map, {n, n, n}, low, high);
+namespace {
+
+/// Bounds of the cells that show something of the box [box_low, box_high]; unchanged without such cells.
+void shown_cells(const MapGrid& grid, const glm::dvec3& box_low, const glm::dvec3& box_high, glm::dvec3& low,
+                 glm::dvec3& high) {
+  const auto& n = grid.size;
   const auto point = [&](std::size_t i, std::size_t j, std::size_t k) {
-    return node_position(grid, i, j, k) + glm::dvec3(grid.offsets[(k * n + j) * n + i]);
+    return node_position(grid, i, j, k) + glm::dvec3(grid.offsets[(k * n[1] + j) * n[0] + i]);
   };
   glm::dvec3 first(HUGE_VAL);
   glm::dvec3 last(-HUGE_VAL);
-  for (std::size_t cell = 0; cell < (n - 1) * (n - 1) * (n - 1); ++cell) {
-    const std::size_t i = cell % (n - 1);
-    const std::size_t j = cell / (n - 1) % (n - 1);
-    const std::size_t k = cell / (n - 1) / (n - 1);
+  for (std::size_t cell = 0; cell < (n[0] - 1) * (n[1] - 1) * (n[2] - 1); ++cell) {
+    const std::size_t i = cell % (n[0] - 1);
+    const std::size_t j = cell / (n[0] - 1) % (n[1] - 1);
+    const std::size_t k = cell / (n[0] - 1) / (n[1] - 1);
     glm::dvec3 lowest(HUGE_VAL);
     glm::dvec3 highest(-HUGE_VAL);
     for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -148,7 +151,7 @@ void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low
       lowest = glm::min(lowest, u);
       highest = glm::max(highest, u);
     }
-    if (glm::any(glm::greaterThan(lowest, size)) || glm::any(glm::lessThan(highest, glm::dvec3(0))))
+    if (glm::any(glm::greaterThan(lowest, box_high)) || glm::any(glm::lessThan(highest, box_low)))
       continue;
     first = glm::min(first, node_position(grid, i, j, k));
     last = glm::max(last, node_position(grid, i + 1, j + 1, k + 1));
@@ -156,6 +159,46 @@ void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low
   if (glm::all(glm::lessThan(first, last))) {
     low = first;
     high = last;
+  }
+}
+
+} // namespace
+
+void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high) {
+  // Each pass has smaller cells.
+  for (int pass = 0; pass < 3; ++pass)
+    shown_cells(make_map_grid(map, {17, 17, 17}, low, high), glm::dvec3(0), size, low, high);
+}
+
+void grid_bounds(const MapGrid& grid, const glm::dvec3& box_low, const glm::dvec3& box_high, glm::dvec3& low,
+                 glm::dvec3& high) {
+  low = grid.low;
+  high = grid.high;
+  shown_cells(grid, box_low, box_high, low, high);
+  const auto& n = grid.size;
+  const glm::dvec3 cell = node_position(grid, 1, 1, 1) - grid.low;
+  for (std::size_t index = 0; index < grid.offsets.size(); ++index) {
+    const std::array<std::size_t, 3> at = {index % n[0], index / n[0] % n[1], index / n[0] / n[1]};
+    const glm::dvec3 offset(grid.offsets[index]);
+    const glm::dvec3 node = node_position(grid, at[0], at[1], at[2]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      if (at[a] != 0 && at[a] + 1 != n[a])
+        continue;
+      // Outside the face all points move as its nodes do: p = u − offset, where the other axes show the box.
+      glm::dvec3 u = node + offset;
+      u[axis] = box_low[axis];
+      if (glm::any(glm::lessThan(u, box_low - cell)) || glm::any(glm::greaterThan(u, box_high + cell)))
+        continue;
+      const double p = (at[a] == 0 ? box_low : box_high)[axis] - offset[axis];
+      const bool beyond = at[a] == 0 ? p < grid.low[axis] : p > grid.high[axis];
+      if (!beyond)
+        continue;
+      low = glm::min(low, grid.low);
+      high = glm::max(high, grid.high);
+      low[axis] = std::min(low[axis], p);
+      high[axis] = std::max(high[axis], p);
+    }
   }
 }
 

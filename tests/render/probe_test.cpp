@@ -129,6 +129,51 @@ TEST_CASE("a probe's gradient is of the kind that shades the scene, and central 
         Approx((1 + std::exp(-0.5)) / sum * central).epsilon(0.01));
 }
 
+TEST_CASE("picking behind a twist finds what the twist shows, to half a voxel") {
+  const gl::Context context = test_context();
+  // About the line of sight through its centre, a ball is its own twisted picture: the same distances as
+  // undeformed, at data points turned by −angle·(y − 1/2).
+  const std::string twist =
+      R"("warp":{"kind":"twist","axis":"y","angle":90},"render":{"pipeline":"fragment","size":[64,64],"filter":"linear-exact"})";
+  const PreparedScene ball =
+      prepare_phantom(R"({"volume":{"phantom":"ball","size":[64,64,64]},)" + twist + "}", step_at(0, 0.5));
+  const double h = smallest_spacing(ball.volume);
+  const glm::dvec3 middle = center(ball.box);
+  for (const auto& [x, y] : {std::pair{32.5, 32.5}, {36.5, 30.5}, {28.5, 36.5}}) {
+    const Ray ray = ray_from_pixel(ball.view, x, y);
+    const std::vector<ProbeSample> samples = samples_at(ball, context, x, y);
+    const auto hit = first_visible(samples);
+    REQUIRE(hit);
+    const double expected = glm::dot(middle - ray.origin, ray.direction) - ball_chord(ball.box, ray) / 2;
+    CHECK(std::abs(samples[*hit].distance - expected) <= 0.5 * h);
+    const glm::dvec3 p = samples[*hit].object - 0.5;
+    const glm::dvec3 u = samples[*hit].texture - 0.5;
+    const double angle = glm::radians(-90 * p.y); // R(−angle·q/L) about y takes z to x
+    CHECK(u.x == Approx(p.x * std::cos(angle) + p.z * std::sin(angle)).margin(1e-5));
+    CHECK(u.z == Approx(-p.x * std::sin(angle) + p.z * std::cos(angle)).margin(1e-5));
+    CHECK(u.y == Approx(p.y).margin(1e-5));
+  }
+  // The slabs meet at t_y = 1/2, which a twist about y leaves where it is.
+  PreparedScene slabs =
+      prepare_phantom(R"({"volume":{"phantom":"slabs","size":[64,64,64]},)" + twist + "}", step_at(1.5, 0.5));
+  const std::vector<ProbeSample> samples = samples_at(slabs, context, 32.5, 32.5);
+  const auto visible = first_visible(samples);
+  REQUIRE(visible);
+  CHECK(std::abs(samples[*visible].object.y - 0.5) <= 0.5 / 64);
+  double largest = 0;
+  for (const ProbeSample& s : samples)
+    largest = std::max(largest, s.gradient);
+  const auto steep = first_gradient(samples, 0.99 * largest);
+  REQUIRE(steep);
+  CHECK(std::abs(samples[*steep].object.y - 0.5) <= 0.5 / 64 + 1.0 / 256);
+  // α = 0.5 behind the crossing: the sum reaches one after two reference lengths.
+  const double step = distance_between(slabs, 32.5, 32.5);
+  const auto accumulated = first_accumulated(samples, step / slabs.unit_distance);
+  REQUIRE(accumulated);
+  CHECK(std::abs(samples[*accumulated].distance - samples[*visible].distance - 2 * slabs.unit_distance) <=
+        0.5 * h);
+}
+
 TEST_CASE("summed opacity reaches one where the plain sum says so") {
   const gl::Context context = test_context();
   const PreparedScene scene = scene_of("box", R"("camera":{"azimuth":20,"elevation":10})", grey(0.05));

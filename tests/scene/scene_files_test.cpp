@@ -26,7 +26,7 @@ std::vector<fs::path> scene_files(const std::string& folder) {
 } // namespace
 
 TEST_CASE("every figure file is a valid scene with a title") {
-  const auto folder = GENERATE(as<std::string>(), "cohen", "gallery", "lamar");
+  const auto folder = GENERATE(as<std::string>(), "brunet", "cohen", "gallery", "lamar");
   const std::vector<fs::path> files = scene_files(folder);
   CHECK(files.size() > 10);
   for (const fs::path& file : files) {

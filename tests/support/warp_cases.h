@@ -92,6 +92,57 @@ inline Warp random_deformation(const std::string& kind, const BoxSpace& space) {
   return make_warp(kind).value();
 }
 
+/// Landmarks that move a few points of the unit cube by up to a twentieth and hold its corners.
+inline Landmarks random_landmarks() {
+  Landmarks landmarks;
+  landmarks.space = LandmarkSpace::texture;
+  landmarks.resolution = 16;
+  landmarks.pairs.emplace();
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 c(corner & 1, corner >> 1 & 1, corner >> 2);
+    landmarks.pairs->push_back({c, c});
+  }
+  for (int i = 0; i < 4; ++i) { // a quarter of the box apart and more
+    const glm::dvec3 p(0.25 + 0.5 * (i & 1), 0.25 + 0.5 * (i >> 1), random_in(0.2, 0.8));
+    const glm::dvec3 step(random_in(-1, 1), random_in(-1, 1), random_in(-1, 1));
+    landmarks.pairs->push_back({p, p + 0.05 * step});
+  }
+  return landmarks;
+}
+
+/// A field of smooth waves over the box and beyond, of slopes below a half.
+inline Field random_field(const BoxSpace& space) {
+  DisplacementField field;
+  field.dims = {9, 10, 11};
+  glm::dmat4 box_from_index(0.25);
+  box_from_index[3] = {-0.6, -0.7, -0.8, 1};
+  const glm::dmat4 world_from_box = glm::inverse(space.box_from_world);
+  field.world_from_index = world_from_box * box_from_index;
+  const double phase = random_in(0, 6);
+  for (std::size_t i = 0; i < 990; ++i) {
+    const glm::dvec3 x = 0.25 * glm::dvec3(i % 9, i / 9 % 10, i / 90);
+    const glm::dvec3 d(0.05 * std::sin(4 * x.y + phase), 0.05 * std::cos(3 * x.z + phase), 0.04 * x.x);
+    field.vectors.emplace_back(glm::dmat3(world_from_box) * d);
+  }
+  Field warp;
+  warp.file = "waves";
+  warp.resolution = 16;
+  warp.loaded = std::make_shared<const DisplacementField>(std::move(field));
+  return warp;
+}
+
+/// Whether the kind needs points or a file.
+inline bool has_no_defaults(const std::string& kind) { return kind == "landmarks" || kind == "field"; }
+
+/// The warp with its defaults; landmarks and fields, which have none, as the test's own.
+inline Warp default_warp(const std::string& kind, const BoxSpace& space = {}) {
+  if (kind == "landmarks")
+    return random_landmarks();
+  if (kind == "field")
+    return random_field(space);
+  return make_warp(kind).value();
+}
+
 /// Any valid warp of the kind; its defaults for a kind that is not known here.
 inline Warp random_warp(const std::string& kind, const BoxSpace& space = {}) {
   if (kind == "lamar")
@@ -106,6 +157,8 @@ inline Warp random_warp(const std::string& kind, const BoxSpace& space = {}) {
     return VolumeLens{random_lens_box(1, 8)};
   if (kind == "connected-lens")
     return ConnectedLens{random_lens_box(1, 8)};
+  if (has_no_defaults(kind))
+    return default_warp(kind, space);
   return random_deformation(kind, space);
 }
 
@@ -120,7 +173,8 @@ struct WarpCase {
 inline WarpCase random_case(const std::string& kind) {
   const bool plain = lens_cases::random_bool();
   const Box box = plain ? Box{} : lens_cases::random_box();
-  WarpCase c{plain ? make_warp(kind).value() : random_warp(kind, box_space(box)), box_space(box), {}};
+  WarpCase c{
+      plain ? default_warp(kind, box_space(box)) : random_warp(kind, box_space(box)), box_space(box), {}};
   validate(c.warp);
   c.map = map_of(c.warp, c.space,
                  warp_view(plain ? lens_cases::front_view() : lens_cases::random_view(box), box));

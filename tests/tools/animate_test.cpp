@@ -147,6 +147,27 @@ TEST_CASE("animate: frames of a volume that has changed are rendered anew") {
   CHECK(done(place, call).err.empty());
 }
 
+TEST_CASE("animate: frames of landmarks that have changed are rendered anew") {
+  const Workplace place;
+  put(place / "s.json", small_scene);
+  const auto put_target = [&](const std::string& x) {
+    put(place / "p.csv", "0.5,0.5,0.5," + x +
+                             ",0.5,0.5\n0,0,0,0,0,0\n1,0,0,1,0,0\n0,1,0,0,1,0\n"
+                             "0,0,1,0,0,1\n1,1,1,1,1,1\n");
+  };
+  put_target("0.55");
+  const Words call = turn + Words{"--set", "warp.kind=landmarks", "--set", "warp.file=p.csv",
+                                  "--set", "warp.space=texture",  "-o",    "f/"};
+  done(place, call);
+  CHECK(done(place, call).err == "4 of 4 frames are there already\n");
+  const std::string last = contents(place / "f" / four[3]);
+  done(place, {"render", "f/frame_00003.png", "-o", "one.png"}); // later frames read the landmarks too
+  CHECK(contents(place / "one.png") == last);
+  put_target("0.6");
+  CHECK(done(place, call).err.empty());
+  CHECK(contents(place / "f" / four[3]) != last);
+}
+
 TEST_CASE("animate: without ffmpeg the frames stay and a word says what is missing") {
   const Workplace place;
   put(place / "s.json", small_scene);

@@ -304,3 +304,25 @@ TEST_CASE("plot draws the tables of a scene, and says so where gnuplot is missin
   CHECK_THAT(plot({"-o", "t.png", "--size", "300,300"}).err, Contains("too small for its panels"));
   CHECK(place.entries() == Words{"s.json", "t.png", "t.svg"});
 }
+
+TEST_CASE("warp writes the deformed volume, and refuses what it cannot write") {
+  const Workplace place;
+  put(place / "s.json",
+      R"({"volume":{"phantom":"blob","size":[12,12,12]},"warp":{"kind":"fisheye","distortion":1}})");
+  const Outcome done = place.run({"warp", "s.json", "-o", "out.nrrd", "--size", "6,7,8", "--float"});
+  CHECK(done.status == 0);
+  CHECK(done.out == "out.nrrd\n");
+  const Outcome info = place.run({"info", "out.nrrd"});
+  CHECK(info.out.find("6 7 8") != std::string::npos);
+  CHECK(info.out.find("float32") != std::string::npos);
+  const Outcome name = place.run({"warp", "s.json", "-o", "out.png"});
+  CHECK(name.status == 2);
+  CHECK(std::count(name.err.begin(), name.err.end(), '\n') == 1);
+  CHECK(place.run({"warp", "s.json", "-o", "none/out.nrrd"}).status == 1);
+  put(place / "f.json",
+      R"({"volume":{"phantom":"blob","size":[12,12,12]},"warp":{"kind":"field","file":"none.nrrd"}})");
+  const Outcome missing = place.run({"render", "f.json", "-o", "p.png"});
+  CHECK(missing.status == 1);
+  CHECK(std::count(missing.err.begin(), missing.err.end(), '\n') == 1);
+  CHECK(place.entries() == std::vector<std::string>{"f.json", "out.nrrd", "s.json"});
+}

@@ -32,6 +32,30 @@ bool near_crease(const Map& map, const glm::dvec3& p) {
   return false;
 }
 
+/// Whether differences at p straddle a face between cells of a map on a grid, whose derivative may jump there
+/// by less than near_crease sees.
+bool near_cell_face(const WarpMap& map, const glm::dvec3& p) {
+  const auto* held = std::get_if<GridMap>(&map);
+  if (held == nullptr)
+    return false;
+  const MapGrid& grid = *held->grid;
+  const glm::dvec3 cells(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1);
+  const glm::dvec3 x = (p - grid.low) / (grid.high - grid.low) * cells;
+  const glm::dvec3 off = glm::abs(x - glm::round(x)) * (grid.high - grid.low) / cells;
+  return std::min({off.x, off.y, off.z}) <
+         5e-5; // slopes of maps before it, at most some 20, widen the step of 1e-6
+}
+
+bool near_cell_face(const std::vector<WarpMap>& maps, const glm::dvec3& p) {
+  glm::dvec3 u = p;
+  for (auto map = maps.rbegin(); map != maps.rend(); ++map) {
+    if (near_cell_face(*map, u))
+      return true;
+    u = texture_from_object(*map, u);
+  }
+  return false;
+}
+
 template <class Map>
 glm::dmat3 differences(const Map& map, const glm::dvec3& p) {
   // Where only the second derivative jumps (inner edges of lenses, by at most 2·800) they are off by 4e-5.
@@ -79,7 +103,7 @@ TEST_CASE("every listed warp can be made, is valid, and names at least the pipel
     const std::optional<Warp> warp = make_warp(info.kind);
     REQUIRE(warp);
     CHECK(kind_of(*warp) == info.kind);
-    CHECK_NOTHROW(validate(*warp));
+    CHECK(rc::check([&] { validate(default_warp(info.kind)); }));
     CHECK_FALSE(info.description.empty());
     for (const char* pipeline : {"fragment", "rays", "reference"})
       CHECK(std::count(info.pipelines.begin(), info.pipelines.end(), pipeline) == 1);
@@ -121,7 +145,7 @@ TEST_CASE("every warp: the Jacobian is the derivative of the map, and does not f
         const glm::dvec3 p = random_point(c.space);
         const glm::dmat3 exact = jacobian(c.map, p);
         RC_ASSERT(glm::determinant(exact) > 0);
-        if (near_crease(c.map, p) || near_cut(c.map, p, 1e-5))
+        if (near_crease(c.map, p) || near_cut(c.map, p, 1e-5) || near_cell_face(c.map, p))
           continue;
         RC_ASSERT(largest_entry(exact - differences(c.map, p)) <= 1e-4 * largest_entry(exact));
         ++checked;
@@ -232,7 +256,7 @@ TEST_CASE("a list of warps is their composition, and can be undone") {
       RC_ASSERT(glm::length(object_from_texture(maps, u) - p) < 1e-6);
       if (stays_shown(maps, space, p))
         RC_ASSERT(glm::length(texture_from_object(maps, object_from_texture(maps, p)) - p) < 1e-6);
-      if (near_crease(maps, p) || near_cut(maps, p, 1e-5))
+      if (near_crease(maps, p) || near_cut(maps, p, 1e-5) || near_cell_face(maps, p))
         continue;
       const glm::dmat3 exact = jacobian(maps, p);
       RC_ASSERT(largest_entry(exact - differences(maps, p)) <= 1e-3 * largest_entry(exact));

@@ -4,9 +4,11 @@
 #include "image/image_io.h"
 #include "inputs.h"
 #include "options.h"
+#include "scene/load.h"
 #include "scene/vary.h"
 #include "study/ffmpeg.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -143,9 +145,38 @@ void make_folder(const Animation& animation) {
     throw FileError(animation.folder.string(), "cannot be made a folder for the frames: " + error.message());
 }
 
+using FileTime = fs::file_time_type;
+
+/// When the newest of the files that warps read was written: pictures hold their names only.
+FileTime newest_warp_file(const SceneInput& input) {
+  std::vector<fs::path> files;
+  const auto add = [&](const std::optional<std::string>& file, const char* key) {
+    if (file)
+      files.push_back(resolve_file(*file, input.folders, key));
+  };
+  for (const Warp& warp : input.scene.warp) {
+    if (const auto* landmarks = std::get_if<Landmarks>(&warp)) {
+      add(landmarks->file, "warp.file");
+      add(landmarks->source, "warp.source");
+      add(landmarks->target, "warp.target");
+    } else if (const auto* field = std::get_if<Field>(&warp)) {
+      add(field->file, "warp.file");
+    }
+  }
+  FileTime newest = FileTime::min();
+  for (const fs::path& file : files) {
+    std::error_code error;
+    const FileTime time = fs::last_write_time(file, error);
+    if (error)
+      throw FileError(file.string(), "cannot be read: " + error.message());
+    newest = std::max(newest, time);
+  }
+  return newest;
+}
+
 /// Whether the file is this frame already. A damaged file is no frame; a whole picture that Slicelens did not
 /// write is somebody's work and is refused.
-bool is_rendered(const fs::path& file, const Scene& scene, const std::string& sha256) {
+bool is_rendered(const fs::path& file, const Scene& scene, const std::string& sha256, FileTime newest) {
   std::error_code error;
   if (!fs::exists(file, error))
     return false;
@@ -158,14 +189,16 @@ bool is_rendered(const fs::path& file, const Scene& scene, const std::string& sh
   if (metadata.count("slicelens:version") == 0)
     throw FileError(file.string(), "is not a picture by slicelens and would be replaced; give another name "
                                    "with -o");
-  return metadata["slicelens:scene"] == scene_to_json(scene, -1) &&
+  const FileTime written = fs::last_write_time(file, error);
+  return !error && written >= newest && metadata["slicelens:scene"] == scene_to_json(scene, -1) &&
          metadata["slicelens:version"] == SLICELENS_VERSION && metadata["slicelens:volume_sha256"] == sha256;
 }
 
 std::vector<std::size_t> missing_frames(const Animation& animation, const std::string& sha256) {
+  const FileTime newest = newest_warp_file(animation.text.input);
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < animation.frames; ++i) {
-    if (!is_rendered(animation.folder / frame_name(i), frame_input(animation, i).scene, sha256))
+    if (!is_rendered(animation.folder / frame_name(i), frame_input(animation, i).scene, sha256, newest))
       missing.push_back(i);
   }
   return missing;

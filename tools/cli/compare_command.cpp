@@ -7,6 +7,7 @@
 #include "json_output.h"
 #include "options.h"
 #include "scene/load.h"
+#include "scene/load_warps.h"
 #include "scene/scene_json.h"
 #include "study/metrics.h"
 
@@ -47,7 +48,9 @@ public:
     if (prepared_ && key == key_) {
       Volume volume = std::move(prepared_->volume);
       TransferFunction transfer = transfer_of(scene.scene, volume);
-      prepared_ = prepare(scene.scene, std::move(volume), std::move(transfer));
+      Scene loaded = scene.scene;
+      load_warp_files(loaded, scene.folders, progress);
+      prepared_ = prepare(std::move(loaded), std::move(volume), std::move(transfer));
     } else {
       prepared_.reset();
       prepared_ = load(scene, progress);

@@ -9,6 +9,7 @@
 #include "options.h"
 #include "render/lens_picture.h"
 #include "scene/load.h"
+#include "scene/load_warps.h"
 #include "scene/names.h"
 #include "scene/scene_json.h"
 #include "study/axis_tables_page.h"
@@ -268,6 +269,7 @@ private:
     scene.render.pipeline = pipeline;
     if (pipeline == Pipeline::rays)
       scene.render.order = Order::back_to_front; // the key is for slices
+    load_warp_files(scene, input.folders, progress);
     TransferFunction transfer = transfer_of(scene, volume_);
     PreparedScene prepared = prepare(scene, std::move(volume_), std::move(transfer));
     RenderResult result = render_with(context_, prepared, progress);

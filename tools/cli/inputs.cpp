@@ -6,6 +6,7 @@
 #include "image/image_io.h"
 #include "scene/image_scene.h"
 #include "scene/load.h"
+#include "scene/load_warps.h"
 #include "scene/scene_json.h"
 
 #include <algorithm>
@@ -129,21 +130,28 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
   if (sha256 != nullptr)
     *sha256 = hash;
   TransferFunction transfer = transfer_of(input.scene, volume);
-  return prepare(input.scene, std::move(volume), std::move(transfer));
+  Scene scene = input.scene;
+  load_warp_files(scene, input.folders, progress);
+  return prepare(std::move(scene), std::move(volume), std::move(transfer));
 }
 
 void load_again(PreparedScene& prepared, const SceneInput& input, const Progress& progress) {
-  const auto volume_key = [](const Scene& scene) {
-    Scene volume_only;
-    volume_only.volume = scene.volume;
-    return scene_to_json(volume_only, -1);
+  const auto text_of = [](const auto& section, auto Scene::*member) {
+    Scene alone;
+    alone.*member = section;
+    return scene_to_json(alone, -1);
   };
-  if (volume_key(prepared.scene) != volume_key(input.scene)) {
+  Scene scene = input.scene;
+  if (text_of(prepared.scene.volume, &Scene::volume) != text_of(scene.volume, &Scene::volume)) {
     prepared.pyramid.clear();
-    prepared.volume = load_volume(input.scene.volume, input.folders, progress);
+    prepared.volume = load_volume(scene.volume, input.folders, progress);
   }
-  prepared.transfer = transfer_of(input.scene, prepared.volume);
-  prepared.scene = input.scene;
+  if (text_of(prepared.scene.warp, &Scene::warp) == text_of(scene.warp, &Scene::warp))
+    scene.warp = std::move(prepared.scene.warp); // with what its files hold
+  else
+    load_warp_files(scene, input.folders, progress);
+  prepared.transfer = transfer_of(scene, prepared.volume);
+  prepared.scene = std::move(scene);
   prepare_again(prepared);
 }
 

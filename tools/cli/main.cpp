@@ -236,6 +236,34 @@ void add_plot(CLI::App& app, PlotOptions& options, std::function<void()>& run) {
   command.callback([&options, &run] { run = [&options] { run_plot(options); }; });
 }
 
+void add_warp(CLI::App& app, WarpOptions& options, std::function<void()>& run) {
+  CLI::App& command = *app.add_subcommand(
+      "warp", "write the deformed volume as a volume of its own, lying where the picture shows it");
+  command.footer("Samples by render.filter in double precision. Clipping, effects and colours stay with the "
+                 "scene.\n\n"
+                 "  slicelens warp landmarks.json -o deformed.nrrd\n"
+                 "  slicelens warp landmarks.json -o small.mha --size 64,64,64 --float");
+  command.add_option("input", options.input, "SCENE, or an IMAGE that slicelens wrote")
+      ->required()
+      ->type_name("");
+  command.add_option("-o,--output", options.output, "volume to write, .nrrd, .nhdr, .mha or .mhd")
+      ->required()
+      ->type_name("FILE");
+  add_set(command, options.set);
+  command
+      .add_option("--size", options.size,
+                  "voxels on each axis; default: the volume's, and more where it sticks out of its box")
+      ->expected(3)
+      ->delimiter(',')
+      ->check(CLI::Range(1, 16384))
+      ->type_name("X,Y,Z");
+  command.add_flag("--float", options.as_float, "write float32 instead of rounding to the volume's type");
+  command.add_option("--outside", options.outside, "value where nothing is shown; default: the smallest")
+      ->type_name("VALUE");
+  command.add_flag("--compress", options.compress, "compress the voxels");
+  command.callback([&options, &run] { run = [&options] { run_warp(options); }; });
+}
+
 void add_pick(CLI::App& app, PickOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand(
       "pick", "what lies under a pixel of the displayed volume: three hits as JSON on stdout");
@@ -358,6 +386,7 @@ int run_program(int argc, char** argv) {
   GalleryOptions gallery;
   AnimateOptions animate;
   PlotOptions plot;
+  WarpOptions warp;
   PickOptions pick;
   SliceOptions slice;
   add_render(app, render, run);
@@ -369,6 +398,7 @@ int run_program(int argc, char** argv) {
   add_gallery(app, gallery, run);
   add_animate(app, animate, run);
   add_plot(app, plot, run);
+  add_warp(app, warp, run);
   add_pick(app, pick, run);
   add_slice(app, slice, run);
   try {

@@ -73,6 +73,16 @@ struct AnimateOptions {
   bool loop = false;
 };
 
+struct WarpOptions {
+  std::string input;
+  std::string output; ///< .nrrd, .nhdr, .mha or .mhd
+  std::vector<std::string> set;
+  std::vector<std::size_t> size; ///< voxels; empty: the volume's own
+  bool as_float = false;
+  std::optional<double> outside;
+  bool compress = false;
+};
+
 struct PlotOptions {
   std::string input;
   std::string output; ///< .svg or .png
@@ -110,6 +120,7 @@ void run_list(const ListOptions& options);
 void run_gallery(const GalleryOptions& options);
 void run_animate(const AnimateOptions& options);
 void run_plot(const PlotOptions& options);
+void run_warp(const WarpOptions& options);
 void run_pick(const PickOptions& options);
 void run_slice(const SliceOptions& options);
 

@@ -48,6 +48,33 @@ void start_threads() {
   update_statistics(zeros);
 }
 
+void print_report(const Landmarks& landmarks, const BoxSpace& space) {
+  const LandmarkReport report = landmark_report(landmarks, space);
+  std::fprintf(stderr, "landmarks  %zu by %s, missed by at most %.3g, rms %.3g; as drawn %.3g, rms %.3g\n",
+               report.count, word(landmarks.method).c_str(), report.largest, report.rms, report.grid_largest,
+               report.grid_rms);
+  if (report.duplicates > 0)
+    std::fprintf(stderr, "           %zu pairs given more than once\n", report.duplicates);
+  if (report.smallest_determinant <= 0)
+    std::fprintf(stderr, "           the map folds: smallest determinant %.3g\n",
+                 report.smallest_determinant);
+}
+
+void print_report(const Field& field, const BoxSpace& space) {
+  const FieldReport report = field_report(field, space);
+  std::fprintf(stderr, "field      displaces by at most %.3g; ", report.largest_displacement);
+  if (field.direction == FieldDirection::forward) {
+    std::fprintf(stderr,
+                 "inverted: round trip off by at most %.3g, rms %.3g, before refining %.3g, rms %.3g\n",
+                 report.refined_largest, report.refined_rms, report.scattered_largest, report.scattered_rms);
+  } else {
+    std::fprintf(stderr, "as drawn off by at most %.3g, rms %.3g\n", report.grid_largest, report.grid_rms);
+  }
+  if (report.smallest_determinant <= 0)
+    std::fprintf(stderr, "           the map folds: smallest determinant %.3g\n",
+                 report.smallest_determinant);
+}
+
 void print_verbose(const RenderResult& result, const PreparedScene& prepared, double load, double codec,
                    double write) {
   const auto& dims = prepared.volume.dims;
@@ -70,6 +97,8 @@ void print_verbose(const RenderResult& result, const PreparedScene& prepared, do
     std::fprintf(stderr, "lens       %zu angular and %zu radial segments\n", lens.ring.size(),
                  lens.radial_segments);
   }
+  for (const HeldWarp& held : prepared.held)
+    std::visit([&](const auto& warp) { print_report(warp, held.space); }, held.warp);
   if (prepared.map_grid) {
     const MapGridError error = map_grid_error(prepared);
     const auto& size = prepared.map_grid->grid->size;

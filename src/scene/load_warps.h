@@ -1,0 +1,22 @@
+// From the warps of a scene to the files that they name.
+#pragma once
+
+#include "core/progress.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace slicelens {
+
+/// Reads the files of the scene's landmarks and fields into the warps. Paths are resolved as volume.file is.
+/// Throws FileError for files that are missing, damaged or hold something else: a field needs three finite
+/// components a voxel. UsageError for lists of different lengths.
+void load_warp_files(Scene& scene, const std::vector<std::filesystem::path>& folders,
+                     const Progress& progress);
+
+/// A displacement field as it is in its file. `vectors`: of which axes. Throws as above.
+DisplacementField read_field(const std::filesystem::path& path, FieldVectors vectors,
+                             const Progress& progress);
+
+} // namespace slicelens
