@@ -50,8 +50,9 @@ TEST_CASE("pipeline grid: the driver's filter and the shader's weights draw the 
   const PreparedScene scene = head_under(fisheye);
   const Image by_driver = picture(changed(scene, {"render.pipeline=grid", "render.filter=linear"}), context);
   const Image in_shader = picture(changed(scene, {"render.pipeline=grid"}), context);
-  CHECK(psnr(by_driver, in_shader) >
-        40); // softpipe weighs with 8 bits; llvmpipe, in float, comes to more than 70
+  // llvmpipe comes to more than 70 dB. softpipe to 46, though its grids are the CPU's as well
+  // (warp_gpu_test.cpp).
+  CHECK(psnr(by_driver, in_shader) > 40);
 }
 
 TEST_CASE("pipeline grid draws a chain of warps, shades it, and clips it") {

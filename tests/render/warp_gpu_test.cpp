@@ -166,11 +166,13 @@ TEST_CASE("grids of warps on the GPU are the CPU's within 1e-5, two of them in a
     const Largest largest = compare(8, [&](BoxSpace& space) {
       std::vector<WarpMap> maps;
       for (int i = 0; i < count; ++i) {
-        const warp_cases::WarpCase c = warp_cases::random_case("fisheye");
-        space = c.space;
+        space = box_space(Box{});
+        // Slopes of at most 3: the second map carries the first one's rounding on.
+        const double strength = lens_cases::random_in(0.5, 2);
+        const WarpMap fisheye = map_of(Warp(Fisheye{glm::dvec3(0.5), glm::dvec3(strength)}), space, {});
         const std::array<std::size_t, 3> size = {static_cast<std::size_t>(*rc::gen::inRange(2, 40)), 17, 33};
         maps.emplace_back(GridMap{
-            std::make_shared<const MapGrid>(make_map_grid({c.map}, size, glm::dvec3(0), c.space.size))});
+            std::make_shared<const MapGrid>(make_map_grid({fisheye}, size, glm::dvec3(0), space.size))});
       }
       return maps;
     });
@@ -190,11 +192,11 @@ TEST_CASE("a chain of all warps on the GPU is the CPU's within 1e-5") {
     space = box_space(box);
     std::vector<WarpMap> maps;
     for (const WarpInfo& info : warp_infos()) {
-      Warp warp = warp_cases::default_warp(info.kind, space);
+      const bool folds = info.kind == "bend" || info.kind == "twist"; // a flat box, with the defaults
+      const Warp warp =
+          folds ? warp_cases::random_warp(info.kind, space) : warp_cases::default_warp(info.kind, space);
       if (has_cuts(map_of(warp, space, {})) && info.kind != "volume-lens" && info.kind != "bend")
         continue; // of a chain with all of them little would be left to compare; below they are one by one
-      if (info.kind == "bend" || info.kind == "twist")
-        warp = warp_cases::random_warp(info.kind, space); // the defaults may fold a flat box
       maps.push_back(map_of(warp, space, warp_view(lens_cases::random_view(box), box)));
     }
     return maps;
