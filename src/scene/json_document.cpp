@@ -7,6 +7,19 @@
 
 namespace slicelens::keys_json {
 
+std::vector<std::string> split_key(const std::string& key) {
+  std::vector<std::string> parts(1);
+  for (const char c : key) {
+    if (c == '.' || c == '[') {
+      if (!parts.back().empty())
+        parts.emplace_back();
+    } else if (c != ']') {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
 namespace {
 
 /// Groups of which only one member may stand in a section; setting one by --set removes the others.
@@ -51,19 +64,6 @@ void remove_alternatives(Json& section, const std::string& section_name, const s
 Json value_of(const std::string& text) {
   Json value = Json::parse(text, nullptr, false);
   return value.is_discarded() ? Json(text) : value;
-}
-
-std::vector<std::string> split_key(const std::string& key) {
-  std::vector<std::string> parts(1);
-  for (const char c : key) {
-    if (c == '.' || c == '[') {
-      if (!parts.back().empty())
-        parts.emplace_back();
-    } else if (c != ']') {
-      parts.back() += c;
-    }
-  }
-  return parts;
 }
 
 void apply(Json& scene, const KeyValue& change) {

@@ -21,6 +21,9 @@ Json changed_document(const std::string& text, const std::string& source,
 /// The value that `text` holds, an object or not. Throws UsageError as above.
 Json parse_text(const std::string& text, const std::string& source);
 
+/// "warp[0].zoom" and "warp.0.zoom" are {"warp", "0", "zoom"}.
+std::vector<std::string> split_key(const std::string& key);
+
 /// Whether the document gives a value other than null for a key of a section.
 bool has_value(const Json& json, const char* section, const char* key);
 

@@ -66,35 +66,52 @@ SceneInput scene_text_input(const std::string& text, const std::string& source,
   return {scene_from_json(text, source, changes), folders_for("", changes), "", source};
 }
 
-SceneInput scene_input(const std::string& input, const std::vector<std::string>& set) {
+namespace {
+
+SceneText read_scene(const std::string& text, const std::string& source, const fs::path& home,
+                     const std::vector<KeyValue>& changes) {
+  return {text, changes, {scene_from_json(text, source, changes), folders_for(home, changes), "", source}};
+}
+
+SceneText scene_of_picture(const std::string& picture, const std::vector<KeyValue>& changes) {
+  const auto metadata = read_metadata(picture);
+  const auto scene = metadata.find("slicelens:scene");
+  if (metadata.count("slicelens:image_scene") != 0)
+    throw UsageError(picture + ": holds the scene of a picture; draw it again with slicelens lens");
+  if (scene == metadata.end()) {
+    throw UsageError(picture + ": this picture holds no Slicelens scene; to render an image stack give its "
+                               "folder or a pattern such as slice_*.png");
+  }
+  SceneText result = read_scene(scene->second, picture, fs::path(picture).parent_path(), changes);
+  const auto hash = metadata.find("slicelens:volume_sha256");
+  const bool other_volume = std::any_of(changes.begin(), changes.end(),
+                                        [](const KeyValue& c) { return c.key.rfind("volume", 0) == 0; });
+  if (hash != metadata.end() && !other_volume)
+    result.input.expected_sha256 = hash->second;
+  return result;
+}
+
+} // namespace
+
+SceneText scene_text(const std::string& input, const std::vector<std::string>& set) {
   const std::vector<KeyValue> changes = assignments(set);
-  const fs::path home = fs::path(input).parent_path();
   if (kind_of(input) == InputKind::scene) {
     const std::string text = read_text(input);
     if (is_image_scene(text))
       throw UsageError(input + ": a scene of a picture; draw it with slicelens lens");
-    return {scene_from_json(text, input, changes), folders_for(home, changes), "", input};
+    return read_scene(text, input, fs::path(input).parent_path(), changes);
   }
-  if (kind_of(input) == InputKind::picture) {
-    const auto metadata = read_metadata(input);
-    const auto scene = metadata.find("slicelens:scene");
-    if (metadata.count("slicelens:image_scene") != 0)
-      throw UsageError(input + ": holds the scene of a picture; draw it again with slicelens lens");
-    if (scene == metadata.end()) {
-      throw UsageError(input + ": this picture holds no Slicelens scene; to render an image stack give its "
-                               "folder or a pattern such as slice_*.png");
-    }
-    SceneInput result{scene_from_json(scene->second, input, changes), folders_for(home, changes), "", input};
-    const auto hash = metadata.find("slicelens:volume_sha256");
-    const bool other_volume = std::any_of(changes.begin(), changes.end(),
-                                          [](const KeyValue& c) { return c.key.rfind("volume", 0) == 0; });
-    if (hash != metadata.end() && !other_volume)
-      result.expected_sha256 = hash->second;
-    return result;
-  }
+  if (kind_of(input) == InputKind::picture)
+    return scene_of_picture(input, changes);
   std::vector<KeyValue> with_file = {{"volume.file", input}};
   with_file.insert(with_file.end(), changes.begin(), changes.end());
-  return {scene_from_json("{}", input, with_file), {"."}, "", input};
+  SceneText result = read_scene("{}", input, "", with_file);
+  result.input.folders = {"."};
+  return result;
+}
+
+SceneInput scene_input(const std::string& input, const std::vector<std::string>& set) {
+  return scene_text(input, set).input;
 }
 
 std::future<std::string> start_hash(const SceneInput& input) {
@@ -116,6 +133,26 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
   Scene scene = input.scene;
   load_warp_files(scene, input.folders, progress);
   return prepare(std::move(scene), std::move(volume), std::move(transfer));
+}
+
+void load_again(PreparedScene& prepared, const SceneInput& input, const Progress& progress) {
+  const auto text_of = [](const auto& section, auto Scene::*member) {
+    Scene alone;
+    alone.*member = section;
+    return scene_to_json(alone, -1);
+  };
+  Scene scene = input.scene;
+  if (text_of(prepared.scene.volume, &Scene::volume) != text_of(scene.volume, &Scene::volume)) {
+    prepared.pyramid.clear();
+    prepared.volume = load_volume(scene.volume, input.folders, progress);
+  }
+  if (text_of(prepared.scene.warp, &Scene::warp) == text_of(scene.warp, &Scene::warp))
+    scene.warp = std::move(prepared.scene.warp); // with what its files hold
+  else
+    load_warp_files(scene, input.folders, progress);
+  prepared.transfer = transfer_of(scene, prepared.volume);
+  prepared.scene = std::move(scene);
+  prepare_again(prepared);
 }
 
 void open_context(OpenContext& context, const Scene& scene) {

@@ -5,6 +5,7 @@
 #include "render/prepare.h"
 #include "render/render.h"
 #include "scene/scene.h"
+#include "scene/scene_json.h"
 
 #include <filesystem>
 #include <future>
@@ -32,6 +33,16 @@ InputKind kind_of(const std::string& input);
 /// default.
 SceneInput scene_input(const std::string& input, const std::vector<std::string>& set);
 
+/// A scene before it is read: text and changes, for what reads it again with more changes.
+struct SceneText {
+  std::string text;
+  std::vector<KeyValue> changes; ///< those of --set, and the volume that was named
+  SceneInput input;              ///< the scene with these changes
+};
+
+/// The same, with its text.
+SceneText scene_text(const std::string& input, const std::vector<std::string>& set);
+
 /// A scene text that is not a file, named `source` in messages.
 SceneInput scene_text_input(const std::string& text, const std::string& source,
                             const std::vector<std::string>& set);
@@ -45,6 +56,9 @@ std::future<std::string> start_hash(const SceneInput& input);
 /// one.
 PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256 = nullptr,
                    std::future<std::string> hashing = {});
+
+/// Works out another scene with the same volume, which is read again only where the section `volume` differs.
+void load_again(PreparedScene& prepared, const SceneInput& input, const Progress& progress);
 
 /// A context that is kept for the next scene that asks for the same kind and profile.
 struct OpenContext {

@@ -174,6 +174,45 @@ void add_gallery(CLI::App& app, GalleryOptions& options, std::function<void()>& 
   command.callback([&options, &run] { run = [&options] { run_gallery(options); }; });
 }
 
+void add_animate(CLI::App& app, AnimateOptions& options, std::function<void()>& run) {
+  CLI::App& command = *app.add_subcommand(
+      "animate", "render a scene many times while keys of it change: a video or pictures");
+  command.footer(
+      "Every key of numbers can vary, lists of them too; it goes from FROM in the first frame to TO in the "
+      "last.\nThe frames are pictures of their own, in the folder OUT.frames of a video OUT, and stay there. "
+      "Called again, the command\nrenders only those that are missing or show another scene, so work that "
+      "was interrupted goes on. Videos need ffmpeg\n(apt-get install ffmpeg).\n\n"
+      "  slicelens animate head.json --vary camera.azimuth=0:360 --loop --frames 100 -o turn.mp4\n"
+      "  slicelens animate lens.json --vary warp.zoom=1:3 --vary warp.center=[0.3,0.5,0.5]:[0.7,0.5,0.5] "
+      "--frames 50 -o lens.gif\n"
+      "  slicelens animate head.json --vary render.spacing=4:0.5 --frames 8 -o spacing/");
+  command.add_option("input", options.input, "SCENE, VOLUME or IMAGE")->required()->type_name("");
+  command
+      .add_option("-o,--output", options.output,
+                  "video to write, .mp4 or .gif, or a folder (with / at its end) for .png frames")
+      ->required()
+      ->type_name("OUT");
+  command
+      .add_option("--vary", options.vary,
+                  "a scene key and its values in the first and in the last frame; may be given again")
+      ->required()
+      ->type_name("KEY=FROM:TO")
+      ->expected(1)
+      ->take_all();
+  command.add_option("--frames", options.frames, "how many, 1 to 100000")
+      ->required()
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N");
+  command.add_flag("--loop", options.loop,
+                   "a closed loop: the frame after the last would be the first, at TO as at FROM");
+  command.add_option("--fps", options.fps, "frames a second of a video, 0.1 to 240 (a .gif: to 50)")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 240.0))
+      ->type_name("F");
+  add_set(command, options.set);
+  command.callback([&options, &run] { run = [&options] { run_animate(options); }; });
+}
+
 void add_plot(CLI::App& app, PlotOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand(
       "plot", "draw a scene's per-axis tables: offset, mask, attenuation and highlight as curves");
@@ -345,6 +384,7 @@ int run_program(int argc, char** argv) {
   PhantomOptions phantom;
   ListOptions list;
   GalleryOptions gallery;
+  AnimateOptions animate;
   PlotOptions plot;
   WarpOptions warp;
   PickOptions pick;
@@ -356,6 +396,7 @@ int run_program(int argc, char** argv) {
   add_phantom(app, phantom, run);
   add_list(app, list, run);
   add_gallery(app, gallery, run);
+  add_animate(app, animate, run);
   add_plot(app, plot, run);
   add_warp(app, warp, run);
   add_pick(app, pick, run);

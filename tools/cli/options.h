@@ -63,6 +63,16 @@ struct GalleryOptions {
   std::vector<std::string> set;
 };
 
+struct AnimateOptions {
+  std::string input;
+  std::string output; ///< .mp4, .gif or a folder
+  std::vector<std::string> set;
+  std::vector<std::string> vary; ///< KEY=FROM:TO
+  std::size_t frames = 0;
+  double fps = 25;
+  bool loop = false;
+};
+
 struct WarpOptions {
   std::string input;
   std::string output; ///< .nrrd, .nhdr, .mha or .mhd
@@ -108,6 +118,7 @@ void run_info(const InfoOptions& options);
 void run_phantom(const PhantomOptions& options);
 void run_list(const ListOptions& options);
 void run_gallery(const GalleryOptions& options);
+void run_animate(const AnimateOptions& options);
 void run_plot(const PlotOptions& options);
 void run_warp(const WarpOptions& options);
 void run_pick(const PickOptions& options);
