@@ -59,5 +59,6 @@ void run_phases(const BenchOptions& options);
 void run_lens2d(gl::Context& context, const BenchOptions& options);
 void run_lens3d(gl::Context& context, const BenchOptions& options);
 void run_axis(gl::Context& context, const BenchOptions& options);
+void run_deform(gl::Context& context, const BenchOptions& options);
 
 } // namespace slicelens::bench

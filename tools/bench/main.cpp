@@ -48,6 +48,8 @@ void run(const BenchOptions& options) {
       run_lens3d(context, options);
     if (wanted("axis"))
       run_axis(context, options);
+    if (wanted("deform"))
+      run_deform(context, options);
   }
   if (wanted("phases"))
     run_phases(options);
@@ -64,8 +66,9 @@ int main(int argc, char** argv) {
   CLI::App app("Measures the slice pipeline against a bare loop, the cost of each option, and the phases of "
                "a picture. Prints Markdown.",
                "slicelens_bench");
-  app.add_option("sections", options.sections, "fill, options, lens2d, lens3d, axis, phases; none: all")
-      ->check(CLI::IsMember({"fill", "options", "lens2d", "lens3d", "axis", "phases"}));
+  app.add_option("sections", options.sections,
+                 "fill, options, lens2d, lens3d, axis, deform, phases; none: all")
+      ->check(CLI::IsMember({"fill", "options", "lens2d", "lens3d", "axis", "deform", "phases"}));
   app.add_option("--volume", options.volumes, "volume files or folders for `phases`")->type_name("PATH");
   app.add_option("--edge", options.edge, "voxels on an edge of the phantom")->check(CLI::Range(8, 1024));
   app.add_option("--picture", options.picture, "pixels on an edge of the picture")
