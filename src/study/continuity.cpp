@@ -144,12 +144,13 @@ VoxelMask displayed_mask(const Volume& volume, const TextureMap& u, double thres
   VoxelMask mask{dims, {}};
   const auto [nx, ny, nz] = dims;
   const std::size_t rows = checked_product(ny, nz, "displayed mask");
-  try {
-    mask.voxels.resize(checked_product(nx, rows, "displayed mask"));
-  } catch (const std::exception&) {
+  const std::size_t count = checked_product(nx, rows, "displayed mask");
+  if (count > max_mask_voxels) {
     throw LimitError("displayed mask of " + std::to_string(nx) + " x " + std::to_string(ny) + " x " +
-                     std::to_string(nz) + " voxels: not enough memory");
+                     std::to_string(nz) + " voxels is too large; take at most " +
+                     std::to_string(max_mask_voxels) + " in all");
   }
+  mask.voxels.resize(count);
   const dvec3 n(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz));
   visit_scalar_type(volume.type, [&](auto* tag) {
     using T = std::remove_pointer_t<decltype(tag)>;

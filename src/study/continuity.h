@@ -25,11 +25,14 @@ TextureMap undeformed();
 /// precision, clamped to the outer centres. NaN where a NaN voxel takes part.
 double trilinear(const Volume& volume, const glm::dvec3& t);
 
+/// Most voxels of a displayed mask, a byte each.
+inline constexpr std::size_t max_mask_voxels = std::size_t{1} << 33;
+
 /// The object as displayed: voxel p = (i+½)/dims is 1 where the volume's value at u(p) is `threshold` or
 /// more, and 0 where u(p) leaves [0,1]³ or is not finite. Samples are rounded, so a value equal to the
 /// threshold may fall on either side (not on the volume's own grid when its dims are powers of two). Throws
 /// UsageError for a zero size or a threshold that is not finite, LimitError when the product of dims
-/// overflows or memory is short.
+/// overflows or exceeds max_mask_voxels.
 VoxelMask displayed_mask(const Volume& volume, const TextureMap& u, double threshold,
                          const std::array<std::size_t, 3>& dims);
 

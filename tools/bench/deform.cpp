@@ -22,7 +22,7 @@ struct Deformation {
 };
 
 const std::string sine = R"({"kind":"sine","axis":"x","along":"z","amplitude":0.05,"wavelength":0.5})";
-const std::string bent = R"({"kind":"bend","axis":"z","toward":"x","angle":40})";
+const std::string bent = R"({"kind":"bend","axis":"z","toward":"x","angle":20})";
 
 std::vector<Deformation> deformations() {
   return {{"shift", R"({"kind":"shift","offset":[0.02,0.01,0]})", "fragment", 29.2 / 39},
