@@ -12,7 +12,7 @@ namespace slicelens {
 struct BakeOptions {
   std::optional<std::array<std::size_t, 3>> size; ///< voxels; none: those of the volume, and as many more of
                                                   ///< their size as the displayed volume sticks out
-  bool as_float = false;         ///< float32; else the volume's own type, rounded
+  bool as_float = false;                          ///< float32; else the volume's own type, rounded
   std::optional<double> outside; ///< where nothing is shown; none: the volume's smallest value
 };
 

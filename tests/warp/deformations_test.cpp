@@ -207,7 +207,8 @@ TEST_CASE("expander: points worked by hand") {
   check_point(map, {0.5, 0.95, 0.5}, {0.5, 0.95, 0.5});
 }
 
-TEST_CASE("the bend jumps behind its arc's axis, where it declares a cut, and shows nothing of the volume there") {
+TEST_CASE(
+    "the bend jumps behind its arc's axis, where it declares a cut, and shows nothing of the volume there") {
   CHECK(rc::check([] {
     const BoxSpace space = box_space(lens_cases::random_box());
     const BendMap map = bend_map(random_bend(space), space);
