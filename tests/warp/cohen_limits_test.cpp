@@ -1,10 +1,10 @@
 // What makes no bifocal, fisheye, lens, highlight or attenuation is refused in one line that says so.
 #include "catch.h"
 #include "core/errors.h"
+#include "refusal.h"
 #include "warp/focus_effects.h"
 #include "warp/warp.h"
 
-#include <functional>
 #include <limits>
 
 using namespace slicelens;
@@ -13,15 +13,6 @@ namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return {};
-}
 
 void check_refused(const std::string& message, const std::vector<std::string>& named) {
   INFO(message);

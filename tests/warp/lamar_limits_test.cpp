@@ -1,9 +1,9 @@
 #include "catch.h"
 #include "core/errors.h"
 #include "lens_cases.h"
+#include "refusal.h"
 #include "warp/warp.h"
 
-#include <functional>
 #include <limits>
 
 using namespace slicelens;
@@ -13,15 +13,7 @@ namespace {
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// What `call` throws, or an empty text.
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return {};
-}
+using ::refusal;
 
 std::string refusal(const LamarLens& lens) {
   return refusal([&] { validate(Warp(lens)); });

@@ -1,6 +1,8 @@
 #include "bench.h"
 
 #include "gl/timer.h"
+#include "scene/load.h"
+#include "volume/phantom.h"
 
 #include <cstdio>
 #include <ctime>
@@ -56,6 +58,17 @@ std::string fixed(double value, int digits) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", digits, value);
   return text;
+}
+
+void on_each_volume(const BenchOptions& options, const Scene& scene,
+                    const std::function<void(const std::string&, Scene, Volume)>& run) {
+  run("Head phantom", scene, make_phantom("head", *scene.volume.size));
+  for (const std::string& path : options.volumes) {
+    Scene real = scene;
+    real.volume = {};
+    real.volume.file = path;
+    run(path.substr(path.find_last_of('/') + 1), real, load_volume(real.volume, {"."}, {}));
+  }
 }
 
 std::string spread_text(const Quartiles& quartiles, int digits) {

@@ -43,6 +43,10 @@ std::uint64_t fragments_of(const gl::Functions& gl, const std::function<void()>&
 /// A scene of the head phantom with everything else at its default.
 Scene phantom_scene(const BenchOptions& options);
 
+/// Calls run(name, scene, volume) for the head phantom of the scene, and for each of options.volumes.
+void on_each_volume(const BenchOptions& options, const Scene& scene,
+                    const std::function<void(const std::string&, Scene, Volume)>& run);
+
 /// "0.953 [0.941, 0.967]": the median and both quartiles.
 std::string spread_text(const Quartiles& quartiles, int digits);
 /// A number with a fixed count of decimals.

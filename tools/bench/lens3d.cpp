@@ -106,14 +106,9 @@ void run_lens3d(gl::Context& context, const BenchOptions& options) {
   Scene scene = phantom_scene(options);
   scene.camera.azimuth = 30;
   scene.camera.elevation = 10;
-  run_volume(context, options, "Head phantom", scene, make_phantom("head", *scene.volume.size));
-  for (const std::string& path : options.volumes) {
-    Scene real = scene;
-    real.volume = {};
-    real.volume.file = path;
-    run_volume(context, options, path.substr(path.find_last_of('/') + 1), real,
-               load_volume(real.volume, {"."}, {}));
-  }
+  on_each_volume(options, scene, [&](const std::string& name, Scene own, Volume volume) {
+    run_volume(context, options, name, std::move(own), std::move(volume));
+  });
 }
 
 } // namespace slicelens::bench
