@@ -212,6 +212,14 @@ void validate(const Landmarks& landmarks) {
     (void)checked_points(landmarks);
 }
 
+std::vector<LandmarkPair> landmarks_in_box(const Landmarks& landmarks, const BoxSpace& space) {
+  const Points points = points_in_box(landmarks, space);
+  std::vector<LandmarkPair> pairs;
+  for (std::size_t i = 0; i < points.source.size(); ++i)
+    pairs.push_back({points.source[i], points.target[i]});
+  return pairs;
+}
+
 GridMap landmark_map(const Landmarks& landmarks, const BoxSpace& space) {
   return grid_of(landmarks, spline_of(landmarks, space, points_in_box(landmarks, space)));
 }

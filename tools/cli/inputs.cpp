@@ -46,6 +46,21 @@ void require_hash(const SceneInput& input, const std::string& sha256) {
                                                 "…); name the right one with --set volume.file=…");
 }
 
+/// Where a picture keeps the hash of what warp number i has read.
+std::string warp_hash_name(std::size_t i) { return "slicelens:warp" + std::to_string(i) + "_sha256"; }
+
+void require_warp_hashes(const SceneInput& input, const Scene& loaded) {
+  for (const auto& [i, expected] : input.expected_warp_sha256) {
+    if (i >= loaded.warp.size() || loaded_sha256(loaded.warp[i]) == expected)
+      continue;
+    throw FileError(input.source, "the files of its warp '" + kind_of(loaded.warp[i]) +
+                                      "' have changed since it was rendered (SHA-256 " +
+                                      loaded_sha256(loaded.warp[i]).substr(0, 12) + "…, then " +
+                                      expected.substr(0, 12) +
+                                      "…); put the right ones there or name them with --set warp…");
+  }
+}
+
 } // namespace
 
 InputKind kind_of(const std::string& input) {
@@ -88,6 +103,13 @@ SceneText scene_of_picture(const std::string& picture, const std::vector<KeyValu
                                         [](const KeyValue& c) { return c.key.rfind("volume", 0) == 0; });
   if (hash != metadata.end() && !other_volume)
     result.input.expected_sha256 = hash->second;
+  const bool other_warp = std::any_of(changes.begin(), changes.end(),
+                                      [](const KeyValue& c) { return c.key.rfind("warp", 0) == 0; });
+  for (std::size_t i = 0; !other_warp && i < result.input.scene.warp.size(); ++i) {
+    const auto warp_hash = metadata.find(warp_hash_name(i));
+    if (warp_hash != metadata.end())
+      result.input.expected_warp_sha256[i] = warp_hash->second;
+  }
   return result;
 }
 
@@ -132,6 +154,7 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
   TransferFunction transfer = transfer_of(input.scene, volume);
   Scene scene = input.scene;
   load_warp_files(scene, input.folders, progress);
+  require_warp_hashes(input, scene);
   return prepare(std::move(scene), std::move(volume), std::move(transfer));
 }
 
@@ -187,6 +210,11 @@ void add_metadata(RenderResult& result, const Scene& scene, const std::string& s
     metadata["slicelens:gl_limits"] = result.limits;
   if (!sha256.empty())
     metadata["slicelens:volume_sha256"] = sha256;
+  for (std::size_t i = 0; i < scene.warp.size(); ++i) {
+    const std::string hash = loaded_sha256(scene.warp[i]);
+    if (!hash.empty())
+      metadata[warp_hash_name(i)] = hash;
+  }
 }
 
 } // namespace slicelens::cli
