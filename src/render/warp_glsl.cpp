@@ -60,6 +60,7 @@ EmbeddedFile warp_chain(const std::vector<WarpMap>& maps) {
 void set_warp_maps(const gl::Functions& gl, const gl::Program& program, const std::vector<WarpMap>& maps,
                    const BoxSpace& space) {
   set_uniform(gl, program, "box_size", glm::vec3(space.size));
+  set_uniform(gl, program, "texture_from_box", glm::vec3(1.0 / space.size));
   int unit = grid_unit;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     std::visit([&](const auto& map) { set_struct(gl, program, uniform_name(i), map); }, maps[i]);

@@ -80,8 +80,7 @@ void load_warp_files(Scene& scene, const std::vector<fs::path>& folders, const P
       load_files(*landmarks, folders);
     } else if (auto* field = std::get_if<Field>(&warp)) {
       const fs::path file = resolve_file(field->file, folders, "warp.file");
-      field->loaded =
-          std::make_shared<const DisplacementField>(read_field(file, field->vectors, progress));
+      field->loaded = std::make_shared<const DisplacementField>(read_field(file, field->vectors, progress));
       VolumeSource source;
       source.file = file;
       field->sha256 = sha256_of(files_of(source));
