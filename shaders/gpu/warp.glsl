@@ -1,9 +1,7 @@
 // The scene's warps. WARPED: there are some; their functions and uniforms are written by the host
-// (src/render/warp_glsl.cpp).
+// (src/render/warp_glsl.cpp) and come before this file.
 
 #ifdef WARPED
-#include "generated/warps.glsl"
-
 uniform vec3 box_size;  // box space = texture coordinates · box_size
 uniform vec3 texture_from_box;  // 1/box_size: a division for each fragment is dear on software drivers
 
