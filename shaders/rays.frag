@@ -10,6 +10,7 @@
 #include "lib/shade.glsl"
 #include "gpu/warp.glsl"
 #include "gpu/focus_effects.glsl"
+#include "gpu/footprint.glsl"
 #include "gpu/gradient.glsl"
 #include "gpu/light.glsl"
 #ifdef CUT_PLANES
@@ -35,11 +36,14 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #ifdef WARPED
   vec3 t = texture_from_object(p);
   if (!in_volume(t) || !in_data_planes(t)) return gathered;
-#if defined(LEVELS) && LEVELS > 1
+#if defined(LEVELS) && LEVELS > 1 && !defined(FOOTPRINT)
   choose_level(magnification(p));
 #endif
 #else
   vec3 t = p;
+#endif
+#ifdef FOOTPRINT
+  choose_footprint_level(p);
 #endif
 #if defined(CLASSIFICATION_PRE)
   vec4 ready = classified_sample(t);

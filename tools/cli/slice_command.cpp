@@ -42,6 +42,7 @@ void run_slice(const SliceOptions& options) {
   SceneInput input = scene_input(options.input, options.set);
   input.scene.planes = {plane_of(options)};
   input.scene.render.mode = Mode::dvr;
+  input.scene.render.footprint = Footprint::point;
   input.scene.overlay = {};
   validate(input.scene);
   std::string sha256;
