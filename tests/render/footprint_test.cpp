@@ -127,12 +127,13 @@ TEST_CASE("levels by hand: pixels, slices, voxels of any shape, depth") {
   Volume flat = cube;
   flat.spacing = {4, 4, 4}; // h is 4: slices are a voxel apart
   CHECK(level(scene(high, R"("size":[16,16])", flat), glm::dvec3(0.5)) == Approx(0).margin(1e-9));
-  // Perspective: a pixel grows with its depth, 2·tan(15°)·depth/16 here.
+  // Perspective: a pixel grows with its depth, 2·tan(15°)·depth/16 here, right and up alike: a double
+  // singular value, which costs half the digits.
   const PreparedScene seen = scene(R"("projection":"perspective")", R"("size":[16,16])", cube);
   for (const double y : {0.1, 0.9}) {
     const glm::dvec3 p(0.3, y, 0.6);
     const double away = depth(seen.view, world_from_texture(seen.box, p));
-    CHECK(level(seen, p) == Approx(std::log2(2 * std::tan(pi / 12) * away / 16)).epsilon(1e-9));
+    CHECK(level(seen, p) == Approx(std::log2(2 * std::tan(pi / 12) * away / 16)).epsilon(1e-7));
   }
 }
 
@@ -181,7 +182,7 @@ TEST_CASE("constant and linear volumes look the same at the level of the footpri
   for (const std::string pipeline : {"fragment", "tessellated", "rays", "reference"}) {
     const PreparedScene point = changed(scene, {"render.pipeline=" + pipeline});
     const PreparedScene mip = changed(point, {"render.footprint=mip"});
-    REQUIRE(mip.levels == 3); // pixels of 45·√3/24 = 3.2 voxels
+    REQUIRE(mip.levels >= 3); // pixels of 45·√3/24 = 3.2 voxels, and more under the twist
     const double largest = max_difference(picture(point, context), picture(mip, context));
     INFO(pipeline << ": " << largest);
     CHECK(largest < 2e-5); // float rounding of the values, summed over 60 samples
@@ -289,24 +290,44 @@ Image supersampled(const PreparedScene& scene, int factor, gl::Context& context)
 
 } // namespace
 
-TEST_CASE("where a deformation squeezes, levels come nearer to a supersampled picture than points",
-          "[one-driver]") {
+TEST_CASE("where a deformation or a small picture squeezes fine detail, levels beat points", "[one-driver]") {
   gl::Context context = test_context();
-  // Rings and cells finer than a pixel. Opacity is linear in the value, so a mean of values is nearly the
-  // mean of their colours.
-  for (const std::string phantom : {"checkerboard", "marschner-lobb"}) {
-    for (const std::string& warp : {squeeze, sine, std::string("[]")}) {
-      const PreparedScene scene =
-          phantom_scene(phantom, 64, warp == "[]" ? 12 : 32, R"(,"warp":)" + warp, rising(0, 1, 0.1));
-      const Image truth = supersampled(scene, 8, context);
-      for (const std::string pipeline : {"fragment", "rays"}) {
-        const std::string key =
-            "render.pipeline=" + (warp == "[]" && pipeline == "fragment" ? "slices" : pipeline);
-        const double mip = psnr(picture(changed(scene, {key}), context), truth);
-        const double point = psnr(picture(changed(scene, {key, "render.footprint=point"}), context), truth);
-        INFO(phantom << " " << warp << " " << pipeline << ": mip " << mip << " dB, point " << point);
-        CHECK(mip >= point + 3); // half the mean square error
-      }
+  struct Squeezed {
+    std::string name;
+    std::function<double(int, int, int)> pattern; ///< in [0, 1], by voxel
+    std::string warp;
+    int pixels;
+  };
+  // Waves of 6 voxels are three displayed voxels of the eight that they are squeezed by, and a pixel is 2.3.
+  // The waves lie along the squeezed axis: what a level blurs across it is smooth. Without a warp a pixel
+  // is 9.
+  const auto wave = [](int i) { return std::sin(2 * pi * i / 6.0); };
+  const std::vector<Squeezed> cases = {
+      {"waves squeezed 8 times", [&](int i, int, int) { return 0.5 + 0.5 * wave(i); }, squeeze, 48},
+      {"pillars without a warp", [&](int i, int, int k) { return 0.5 + 0.5 * wave(i) * wave(k); }, "[]", 12}};
+  // White, opacity linear in the value: so the mean of values is nearly the mean of what they show. Looked at
+  // along y, in which the patterns do not change: rays across a pattern average it by themselves.
+  const TransferFunction white{{{0, 1, 1, 1, 0}, {1, 1, 1, 1, 0.05}}, std::nullopt, ""};
+  for (const Squeezed& c : cases) {
+    const auto window = [](int i) { return std::pow(std::sin(pi * (i + 0.5) / 64), 2); }; // no outline
+    Volume volume = volume_of(ScalarType::f32, {64, 64, 64}, [&](int i, int j, int k) {
+      return c.pattern(i, j, k) * window(i) * window(j) * window(k);
+    });
+    const std::string size = std::to_string(c.pixels);
+    const PreparedScene scene =
+        prepare(scene_from_json(R"({"render":{"size":[)" + size + "," + size +
+                                    R"(],"footprint":"mip","background":[0,0,0,0]},"warp":)" + c.warp + "}",
+                                "test"),
+                std::move(volume), white);
+    const Image truth = supersampled(scene, 8, context);
+    CHECK(share_over(truth, make_image(truth.width, truth.height), 0.02) > 0.02); // there is a picture
+    for (const std::string& pipeline :
+         {std::string("rays"), std::string(c.warp == "[]" ? "slices" : "fragment")}) {
+      const std::string key = "render.pipeline=" + pipeline;
+      const double mip = psnr(picture(changed(scene, {key}), context), truth);
+      const double point = psnr(picture(changed(scene, {key, "render.footprint=point"}), context), truth);
+      INFO(c.name << ", " << pipeline << ": mip " << mip << " dB, point " << point);
+      CHECK(mip >= point + 3); // half the mean square error
     }
   }
 }
