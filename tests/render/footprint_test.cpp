@@ -307,14 +307,16 @@ TEST_CASE("where a deformation or a small picture squeezes fine detail, levels b
     std::function<double(int, int, int)> pattern; ///< in [0, 1], by voxel
     std::string warp;
     int pixels;
+    int factor; ///< of the supersampled picture
   };
-  // Waves of 6 voxels are three displayed voxels of the eight that they are squeezed by, and a pixel is 2.3.
-  // The waves lie along the squeezed axis: what a level blurs across it is smooth. Without a warp a pixel
-  // is 9.
+  // Waves of 6 voxels that are squeezed 8 times, along the squeezed axis: what a level blurs across it is
+  // smooth. A pixel is a displayed voxel, so that the map alone asks for a level. Without a warp a pixel is 9
+  // voxels.
   const auto wave = [](int i) { return std::sin(2 * pi * i / 6.0); };
   const std::vector<Squeezed> cases = {
-      {"waves squeezed 8 times", [&](int i, int, int) { return 0.5 + 0.5 * wave(i); }, squeeze, 48},
-      {"pillars without a warp", [&](int i, int, int k) { return 0.5 + 0.5 * wave(i) * wave(k); }, "[]", 12}};
+      {"waves squeezed 8 times", [&](int i, int, int) { return 0.5 + 0.5 * wave(i); }, squeeze, 112, 5},
+      {"pillars without a warp", [&](int i, int, int k) { return 0.5 + 0.5 * wave(i) * wave(k); }, "[]", 12,
+       8}};
   // White, opacity linear in the value: so the mean of values is nearly the mean of what they show. Looked at
   // along y, in which the patterns do not change: rays across a pattern average it by themselves.
   const TransferFunction white{{{0, 1, 1, 1, 0}, {1, 1, 1, 1, 0.05}}, std::nullopt, ""};
@@ -329,7 +331,7 @@ TEST_CASE("where a deformation or a small picture squeezes fine detail, levels b
                                     R"(],"footprint":"mip","background":[0,0,0,0]},"warp":)" + c.warp + "}",
                                 "test"),
                 std::move(volume), white);
-    const Image truth = supersampled(scene, 8, context);
+    const Image truth = supersampled(scene, c.factor, context);
     CHECK(share_over(truth, make_image(truth.width, truth.height), 0.02) > 0.02); // there is a picture
     for (const std::string& pipeline :
          {std::string("rays"), std::string(c.warp == "[]" ? "slices" : "fragment")}) {
