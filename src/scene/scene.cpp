@@ -327,7 +327,7 @@ void validate_several(const Scene& scene) {
   if (render.tiles != std::array<std::size_t, 3>{1, 1, 1} || render.levels != 1)
     refuse("are held in one texture each; set render.tiles to [1,1,1] and render.levels to 1");
   if (render.footprint == Footprint::mip)
-    refuse("are held in one resolution each; set render.footprint to point");
+    refuse("are held at one resolution each; set render.footprint to point");
   if (!scene.planes.empty())
     refuse("have no one value for a cutting plane to show; remove planes, or show one volume");
   if (scene.overlay.stack != 0)

@@ -358,4 +358,5 @@ TEST_CASE("footprint mip is refused by name where there is no choice of resoluti
   refused(mip + R"("shading":"diffuse","gradient":"prefiltered"}})", "'prefiltered'");
   refused(mip + R"("shading":"diffuse","gradient":"precomputed"}})", "'precomputed'");
   refused(mip + R"("size":[9,9]},"planes":[{}]})", "planes");
+  refused(mip + R"("size":[9,9]},"volumes":[{"phantom":"ball"},{"phantom":"box"}]})", "several volumes");
 }
