@@ -80,7 +80,7 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("HIGHLIGHT");
   if (has_attenuation(prepared.effects))
     macros.emplace_back("ATTENUATION");
-  if (is_warped(prepared) && !prepared.data_clip.empty())
+  if ((is_warped(prepared) || !prepared.others.empty()) && !prepared.data_clip.empty())
     macros.emplace_back("DATA_PLANES");
   for (std::string& macro : volume_macros(prepared))
     macros.push_back(std::move(macro));

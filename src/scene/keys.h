@@ -205,6 +205,9 @@ void scene_overlay_keys(Visitor& visit, Settings& s) {
   overlay_keys(visit, s);
   visit.key("stack", s.stack,
             "degrees the camera goes aside to show the slices themselves (LaMar's Figure 7); 0: the volume");
+  visit.key("landmarks", s.landmarks,
+            "radius in pixels of circles around landmarks: red sources, blue targets; 0: none",
+            Range::non_negative);
 }
 
 template <class Visitor, class Settings>

@@ -418,6 +418,10 @@ void validate(const OverlaySettings& overlay) {
     throw UsageError("overlay.line_width must be at most 100 pixels");
   if (!(std::abs(overlay.stack) <= 90))
     throw UsageError("overlay.stack must be from -90 to 90 degrees, not " + number_text(overlay.stack));
+  if (overlay.landmarks > 1000) {
+    throw UsageError("overlay.landmarks must be a radius of at most 1000 pixels, not " +
+                     number_text(overlay.landmarks));
+  }
 }
 
 void validate(const Scene& scene) {

@@ -152,6 +152,7 @@ struct OverlaySettings {
   double line_width = 1.5;  ///< pixels
   double stack =
       0; ///< volumes only: degrees the camera goes aside to show the slices themselves; 0: the volume
+  double landmarks = 0; ///< volumes only: radius in pixels of the circles around landmarks; 0: none
 };
 
 /// Section `pick`.

@@ -88,5 +88,6 @@ void vessel_section(const Bench& bench);
 void axis_section(const Bench& bench);
 void gradient_section(const Bench& bench);
 void footprint_section(const Bench& bench);
+void grid_section(const Bench& bench);
 
 } // namespace slicelens::accuracy
