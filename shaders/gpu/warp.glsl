@@ -13,7 +13,7 @@ vec3 displayed_gradient(vec3 gradient, vec3 p) {
   return ((gradient * texture_from_box) * chain_jacobian(p * box_size)) * box_size;
 }
 
-#if defined(LEVELS) && LEVELS > 1
+#if defined(LEVELS) && LEVELS > 1 && !defined(FOOTPRINT)
 // How much of the lenses' magnification r/f(r) the point p is shown with (lib/levels.glsl); they do not overlap.
 float magnification(vec3 p) { return chain_magnification(p * box_size); }
 #endif

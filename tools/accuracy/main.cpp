@@ -27,6 +27,7 @@ const std::vector<Section>& sections() {
                                             {"opacity", opacity_section},
                                             {"axis", axis_section},
                                             {"gradients", gradient_section},
+                                            {"footprint", footprint_section},
                                             {"grids", grid_section},
                                             {"vessels", vessel_section}};
   return list;
@@ -75,7 +76,7 @@ int main(int argc, char** argv) {
       ->type_name("DIR");
   app.add_option("sections", wanted, "which; all by default")
       ->check(CLI::IsMember({"closed-forms", "parity", "perspective", "precision", "opacity", "axis",
-                             "gradients", "grids", "vessels"}));
+                             "gradients", "footprint", "grids", "vessels"}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
