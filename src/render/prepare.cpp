@@ -233,6 +233,16 @@ void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
     auto& planes = plane.space == ClipSpace::texture ? prepared.data_clip : prepared.object_clip;
     planes.push_back(pull_back(world, prepared.box.world_from_texture));
   }
+  if (scene.crop) {
+    auto& planes = scene.crop->space == ClipSpace::texture ? prepared.data_clip : prepared.object_clip;
+    const glm::dmat4 first_from_own = texture_from_world(first) * prepared.box.world_from_texture;
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::dvec3 normal(0);
+      normal[axis] = 1;
+      planes.push_back(pull_back({normal, scene.crop->low[axis]}, first_from_own));
+      planes.push_back(pull_back({-normal, -scene.crop->high[axis]}, first_from_own));
+    }
+  }
   prepared.gradient_space = gradient_space_of(scene);
   prepare_warps(prepared);
   prepare_effects(prepared);
@@ -321,6 +331,10 @@ MapGridError map_grid_error(const PreparedScene& prepared) {
   const auto& dims = prepared.volume.dims;
   return map_grid_error(*prepared.map_grid->grid, prepared.maps, prepared.space,
                         glm::dvec3(dims[0], dims[1], dims[2]));
+}
+
+double isovalue_of(const PreparedScene& prepared) {
+  return prepared.scene.render.isovalue.value_or(0.5 * (prepared.volume.min + prepared.volume.max));
 }
 
 double axis_distance_ratio(const PreparedScene& prepared) {
