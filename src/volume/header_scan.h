@@ -23,7 +23,6 @@ struct HeaderScan {
 
 /// Each throws FileError when the header is not one of its format, a needed field is missing or wrong, the
 /// kind of data is not supported, a data file is missing, or the claim does not fit the files.
-HeaderScan scan_nrrd(const std::filesystem::path& path);
 HeaderScan scan_meta(const std::filesystem::path& path);
 HeaderScan scan_vtk(const std::filesystem::path& path);
 
