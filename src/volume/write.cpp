@@ -5,8 +5,8 @@
 #include "core/text.h"
 #include "volume/file_checks.h"
 #include "volume/header_scan.h"
-#include "volume/nrrd_header.h"
 #include "volume/itk_reading.h"
+#include "volume/nrrd_header.h"
 
 #include <itkMetaImageIO.h>
 #include <itkNrrdImageIO.h>

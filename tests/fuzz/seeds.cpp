@@ -181,7 +181,7 @@ std::string chunk(const std::string& type, const std::string& data) {
 
 void images() {
   const std::string mark = "\x89PNG\r\n\x1a\n";
-  for (const char kind : {0, 2, 3, 4, 6}) {
+  for (const char kind : std::string("\0\2\3\4\6", 5)) {
     const std::size_t channels = kind == 2 ? 3 : kind == 4 ? 2 : kind == 6 ? 4 : 1;
     const std::string size = {0, 0, 0, 3, 0, 0, 0, 2, 8, kind, 0, 0, 0};
     std::string rows;
