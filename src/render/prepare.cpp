@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "render/bricks.h"
 #include "scene/camera.h"
+#include "volume/missing.h"
 #include "volume/pyramid.h"
 #include "warp/object_bounds.h"
 
@@ -139,6 +140,17 @@ void prepare_effects(PreparedScene& prepared) {
     prepared.tables = axis_tables_of(prepared);
 }
 
+/// Voxels without a value are drawn as empty: as a value that the transfer function does not show, for maxima
+/// as the smallest one.
+void fill_missing(PreparedScene& prepared) {
+  Volume& volume = prepared.volume;
+  if (volume.non_finite == 0)
+    return;
+  const bool maximum = prepared.scene.render.mode == Mode::mip;
+  const auto empty = maximum ? std::nullopt : empty_value(prepared.transfer, volume.min, volume.max);
+  fill_non_finite(volume, empty.value_or(volume.min));
+}
+
 /// The levels above the first. They depend on the data alone, so those there are stay.
 void prepare_pyramid(PreparedScene& prepared) {
   const std::size_t count = prepared.scene.render.levels - 1;
@@ -152,6 +164,7 @@ void prepare_pyramid(PreparedScene& prepared) {
 
 void prepare_again(PreparedScene& prepared) {
   const Scene& scene = prepared.scene;
+  fill_missing(prepared);
   const double h = smallest_spacing(prepared.volume);
   prepared.box = box_of(prepared.volume);
   prepared.view = make_view(scene.camera, prepared.box, static_cast<int>(scene.render.size[0]),

@@ -154,6 +154,21 @@ std::vector<DicomFile> frame_of(const std::vector<DicomFile>& sorted, const std:
   return result;
 }
 
+/// The frames of an enhanced file as slices.
+std::vector<DicomFile> slices_of(const DicomFile& file) {
+  std::vector<DicomFile> slices;
+  for (std::size_t k = 0; k < file.frame_positions.size(); ++k) {
+    DicomFile slice = file;
+    slice.frames = 1;
+    slice.frame_positions.clear();
+    slice.position = file.frame_positions[k];
+    slice.index = k;
+    slice.number = static_cast<long long>(k);
+    slices.push_back(slice);
+  }
+  return slices;
+}
+
 /// Distance and direction from slice to slice.
 void measure(DicomStack& stack, const glm::dvec3& normal, const std::string& source,
              const Progress& progress) {
@@ -223,6 +238,10 @@ DicomStack stack_of(std::vector<DicomFile> files, const fs::path& named, const s
   }
   check_alike(files);
   DicomStack stack;
+  if (files.size() == 1 && files.front().axes && files.front().frame_positions.size() > 1) {
+    stack.one_file = true;
+    files = slices_of(files.front());
+  }
   if (files.size() == 1) {
     stack.slices = files;
     return stack;
@@ -243,7 +262,7 @@ DicomStack stack_of(std::vector<DicomFile> files, const fs::path& named, const s
     file.along = glm::dot(*file.position, normal);
   std::stable_sort(files.begin(), files.end(),
                    [](const DicomFile& a, const DicomFile& b) { return a.along < b.along; });
-  if (!named.empty() && files.back().along - files.front().along <= same_position) {
+  if (!named.empty() && !stack.one_file && files.back().along - files.front().along <= same_position) {
     // Many pictures of one slice (a time series, other reconstructions): the file that was named is meant.
     for (const DicomFile& file : files) {
       if (file.file == named)
