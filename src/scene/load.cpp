@@ -81,4 +81,21 @@ TransferFunction transfer_of(const Scene& scene, const Volume& volume) {
   return transfer;
 }
 
+LoadedVolume load_volume_of(const Scene& scene, std::size_t index, const std::vector<fs::path>& folders,
+                            const Progress& progress) {
+  const Scene one = scene_of_volume(scene, index);
+  LoadedVolume loaded;
+  loaded.volume = load_volume(one.volume, folders, progress);
+  loaded.transfer = transfer_of(one, loaded.volume);
+  return loaded;
+}
+
+std::vector<LoadedVolume> load_others(const Scene& scene, const std::vector<fs::path>& folders,
+                                      const Progress& progress) {
+  std::vector<LoadedVolume> others;
+  for (std::size_t i = 1; i < volume_count(scene); ++i)
+    others.push_back(load_volume_of(scene, i, folders, progress));
+  return others;
+}
+
 } // namespace slicelens

@@ -25,6 +25,20 @@ VolumeSource source_of(const VolumeSettings& settings, const std::vector<std::fi
 Volume load_volume(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders,
                    const Progress& progress);
 
+/// A volume and its transfer function.
+struct LoadedVolume {
+  Volume volume;
+  TransferFunction transfer;
+};
+
+/// load_volume and transfer_of for volume `index` of the scene.
+LoadedVolume load_volume_of(const Scene& scene, std::size_t index,
+                            const std::vector<std::filesystem::path>& folders, const Progress& progress);
+
+/// The same for the volumes after the first.
+std::vector<LoadedVolume> load_others(const Scene& scene, const std::vector<std::filesystem::path>& folders,
+                                      const Progress& progress);
+
 /// The transfer function of the scene: its points, its preset, or without either the automatic one for this
 /// volume (the phantom's own preset for phantoms).
 TransferFunction transfer_of(const Scene& scene, const Volume& volume);
