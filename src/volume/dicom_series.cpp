@@ -184,16 +184,20 @@ void measure(DicomStack& stack, const glm::dvec3& normal, const std::string& sou
     largest = std::max(largest, gap);
     worst = std::max(worst, std::abs(gap - spacing) / spacing);
   }
+  const glm::dvec3 step = (*slices.back().position - *slices.front().position) / static_cast<double>(gaps);
+  const double sideways = glm::length(step - glm::dot(step, normal) * normal);
+  // 0.1 % (0.06°) is the rounding of the cosines; more is a tilted gantry.
+  const bool tilted = sideways > 1e-3 * spacing;
+  const double degrees = std::atan2(sideways, spacing) * 180 / 3.14159265358979;
+  const std::string tilt = number_text(std::round(degrees * 100) / 100) + " degrees (tilted gantry)";
   const std::string uneven = "slice distances from " + number_text(std::round(smallest * 1e4) / 1e4) +
                              " to " + number_text(std::round(largest * 1e4) / 1e4) + " mm";
   if (worst > 0.1)
     throw FileError(source,
-                    "has uneven " + uneven +
+                    "has uneven " + uneven + (tilted ? " and is sheared by " + tilt : "") +
                         "; slices are missing or the scan is a mixed one: resample it to one distance");
   if (worst > 0.01)
     report_warning(progress, source + ": " + uneven + "; their mean is used");
-  const glm::dvec3 step = (*slices.back().position - *slices.front().position) / static_cast<double>(gaps);
-  const double sideways = glm::length(step - glm::dot(step, normal) * normal);
   for (std::size_t k = 0; k < slices.size(); ++k) {
     const glm::dvec3 expected = *slices.front().position + step * static_cast<double>(k);
     const glm::dvec3 off = *slices[k].position - expected;
@@ -201,14 +205,10 @@ void measure(DicomStack& stack, const glm::dvec3& normal, const std::string& sou
       throw FileError(slices[k].file.string(),
                       "lies beside the line of the other slices; the series mixes scans");
   }
-  // 0.1 % (0.06°) is the rounding of the cosines; more is a tilted gantry.
-  if (sideways > 1e-3 * spacing) {
+  if (tilted) {
     stack.axis = glm::normalize(step);
     stack.spacing = glm::length(step);
-    const double degrees = std::atan2(sideways, spacing) * 180 / 3.14159265358979;
-    report_warning(progress, source + ": the slices are sheared by " +
-                                 number_text(std::round(degrees * 100) / 100) +
-                                 " degrees (tilted gantry); the axes are kept so");
+    report_warning(progress, source + ": the slices are sheared by " + tilt + "; the axes are kept so");
     return;
   }
   stack.spacing = spacing;
