@@ -7,6 +7,7 @@
 #include "volume/vti_data.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <fstream>
 
@@ -95,10 +96,10 @@ public:
     }
   }
 
-  /// Whether the file read last holds more than its share; compares its checksum.
+  /// Whether the file read last holds more than its share and a line's end; compares its checksum.
   bool has_more() {
-    std::byte beyond{};
-    return stream_ && left_ == 0 && stream_->read(&beyond, 1) == 1;
+    std::array<std::byte, 3> beyond{};
+    return stream_ && left_ == 0 && stream_->read(beyond.data(), beyond.size()) == beyond.size();
   }
 
 private:
