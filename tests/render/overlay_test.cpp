@@ -273,9 +273,11 @@ TEST_CASE("the wireframe of a subdivided slice shows its cells, and their diagon
 
 TEST_CASE("circles lie around the sources and the targets of landmarks") {
   // Texture (.5, .5, .5) is the picture's middle; face on, x goes right, and 0.2 of the edge are 0.2 units.
-  const PreparedScene scene = face_on(
-      R"("landmarks":6,"line_width":3)",
-      R"({"kind":"landmarks","method":"bspline","space":"texture","pairs":[[[0.5,0.5,0.5],[0.7,0.5,0.5]]]})");
+  const PreparedScene scene = prepare_phantom(
+      R"({"volume":{"phantom":"box","size":[8,8,8]},"render":{"pipeline":"fragment","size":[200,200]},
+          "overlay":{"landmarks":6,"line_width":3},
+          "warp":{"kind":"landmarks","method":"bspline","space":"texture","pairs":[[[0.5,0.5,0.5],[0.7,0.5,0.5]]]}})",
+      grey(0));
   Image image = make_image(size, size);
   draw_overlays(image, scene);
   const double target = 100 + 0.2 * unit(scene);
