@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "render/bricks.h"
 #include "scene/camera.h"
+#include "volume/missing.h"
 #include "volume/pyramid.h"
 #include "warp/object_bounds.h"
 
@@ -164,6 +165,17 @@ void prepare_effects(PreparedScene& prepared) {
     prepared.tables = axis_tables_of(prepared);
 }
 
+/// Voxels without a value are drawn as empty: as a value that the transfer function does not show, for maxima
+/// as the smallest one.
+void fill_missing(PreparedScene& prepared) {
+  Volume& volume = prepared.volume;
+  if (volume.non_finite == 0)
+    return;
+  const bool maximum = prepared.scene.render.mode == Mode::mip;
+  const auto empty = maximum ? std::nullopt : empty_value(prepared.transfer, volume.min, volume.max);
+  fill_non_finite(volume, empty.value_or(volume.min));
+}
+
 /// The levels above the first. They depend on the data alone, so those there are stay.
 void prepare_pyramid(PreparedScene& prepared) {
   const std::size_t count = prepared.levels - 1;
@@ -221,6 +233,7 @@ Box box_of_all(const PreparedScene& prepared) {
 /// All that one volume needs but the view. `first`: whose texture coordinates clipping planes are given in.
 void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
   const Scene& scene = prepared.scene;
+  fill_missing(prepared);
   const double h = smallest_spacing(prepared.volume);
   prepared.spacing = spacing;
   prepared.unit_distance = prepared.transfer.unit_distance.value_or(h);
