@@ -25,8 +25,19 @@ VolumeSource source_of(const VolumeSettings& settings, const std::vector<std::fi
 Volume load_volume(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders,
                    const Progress& progress);
 
+/// Puts what transfer.file (as points) and camera.file (as position, focal point …) hold in their place, so
+/// that the scene stands alone. Tables without transfer.range are stretched over the data's range, those of
+/// 256 rows for uint8 data over [0, 255]. Warns, one line for each file, of what was resampled, assumed or
+/// left out, and when the data lie wholly outside of the points.
+void load_transfer_and_camera(Scene& scene, const Volume& volume,
+                              const std::vector<std::filesystem::path>& folders, const Progress& progress);
+
+/// The values of the first and the last row of a table for this volume.
+glm::dvec2 table_range(const Volume& volume, std::size_t rows);
+
 /// The transfer function of the scene: its points, its preset, or without either the automatic one for this
-/// volume (the phantom's own preset for phantoms).
+/// volume (the phantom's own preset for phantoms). A file must have been loaded before; else
+/// UsageError.
 TransferFunction transfer_of(const Scene& scene, const Volume& volume);
 
 } // namespace slicelens

@@ -47,8 +47,9 @@ public:
     const std::string key = fs::path(input).parent_path().string() + "\n" + scene_to_json(volume_only, -1);
     if (prepared_ && key == key_) {
       Volume volume = std::move(prepared_->volume);
-      TransferFunction transfer = transfer_of(scene.scene, volume);
       Scene loaded = scene.scene;
+      load_transfer_and_camera(loaded, volume, scene.folders, progress);
+      TransferFunction transfer = transfer_of(loaded, volume);
       load_warp_files(loaded, scene.folders, progress);
       prepared_ = prepare(std::move(loaded), std::move(volume), std::move(transfer));
     } else {

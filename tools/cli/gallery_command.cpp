@@ -7,6 +7,7 @@
 #include "inputs.h"
 #include "lens_inputs.h"
 #include "options.h"
+#include "preset_sheet.h"
 #include "render/lens_picture.h"
 #include "scene/load.h"
 #include "scene/load_warps.h"
@@ -136,6 +137,23 @@ public:
     return scene.image ? make_lens_entry(scene) : make_volume_entry(scene, progress);
   }
 
+  /// All presets on one picture.
+  GalleryEntry make_preset_entry(const Progress& progress) {
+    GalleryEntry entry;
+    entry.name = "presets";
+    entry.title = "All presets on the head phantom";
+    entry.data = "128×128×128, head for presets in HU, head-mr for those relative to the data's range";
+    entry.pictures.push_back(
+        {save(preset_sheet(context_, progress), "presets.png"),
+         "each preset of slicelens list presets; CT-MIP, MR-MIP and CT-X-ray in the mode "
+         "that they are made for"});
+    entry.scene_json = preset_scene(presets().front());
+    entry.command =
+        "slicelens render presets.json -o tile.png --set transfer.preset=" + presets().front().name;
+    write_text_atomically(folder_ / "presets.json", entry.scene_json + "\n");
+    return entry;
+  }
+
   const std::string& driver() const { return driver_; }
 
 private:
@@ -170,7 +188,7 @@ private:
       compare(entry, word(slicing) + " against rays", slices.image, rays.image, background);
     }
     if (tables)
-      plot_tables(entry, scene.input.scene, progress);
+      plot_tables(entry, scene.input, progress);
     entry.data = std::to_string(volume_.dims[0]) + "×" + std::to_string(volume_.dims[1]) + "×" +
                  std::to_string(volume_.dims[2]) + " " + name_of(volume_.type) + ", " + volume_.format;
     if (scene.argument == scene.name + ".json")
@@ -221,13 +239,15 @@ private:
   }
 
   /// The tables as curves and texels, as PNG on the page and as SVG beside it, where there is a gnuplot.
-  void plot_tables(GalleryEntry& entry, const Scene& scene, const Progress& progress) {
+  void plot_tables(GalleryEntry& entry, const SceneInput& input, const Progress& progress) {
     if (!plots_)
       return;
     const auto separable = [](const Warp& warp) { return is_separable(warp); };
+    Scene scene = input.scene;
     if (!std::all_of(scene.warp.begin(), scene.warp.end(), separable))
       return;
     try {
+      load_transfer_and_camera(scene, volume_, input.folders, {});
       PreparedScene prepared = prepare(scene, std::move(volume_), transfer_of(scene, volume_));
       const PlotPage page = axis_tables_page(entry.title, prepared);
       volume_ = std::move(prepared.volume);
@@ -270,6 +290,7 @@ private:
     if (pipeline == Pipeline::rays)
       scene.render.order = Order::back_to_front; // the key is for slices
     load_warp_files(scene, input.folders, progress);
+    load_transfer_and_camera(scene, volume_, input.folders, progress);
     TransferFunction transfer = transfer_of(scene, volume_);
     PreparedScene prepared = prepare(scene, std::move(volume_), std::move(transfer));
     RenderResult result = render_with(context_, prepared, progress);
@@ -312,6 +333,11 @@ void run_gallery(const GalleryOptions& options) {
     end_progress();
     std::fprintf(stderr, "%zu/%zu %s\n", entries.size() + 1, scenes.size(), scene.name.c_str());
     entries.push_back(gallery.make_entry(scene, progress));
+  }
+  if (options.inputs.empty()) {
+    end_progress();
+    std::fprintf(stderr, "presets\n");
+    entries.push_back(gallery.make_preset_entry(progress));
   }
   end_progress();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -129,8 +129,9 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
   require_hash(input, hash);
   if (sha256 != nullptr)
     *sha256 = hash;
-  TransferFunction transfer = transfer_of(input.scene, volume);
   Scene scene = input.scene;
+  load_transfer_and_camera(scene, volume, input.folders, progress);
+  TransferFunction transfer = transfer_of(scene, volume);
   load_warp_files(scene, input.folders, progress);
   return prepare(std::move(scene), std::move(volume), std::move(transfer));
 }
@@ -150,6 +151,7 @@ void load_again(PreparedScene& prepared, const SceneInput& input, const Progress
     scene.warp = std::move(prepared.scene.warp); // with what its files hold
   else
     load_warp_files(scene, input.folders, progress);
+  load_transfer_and_camera(scene, prepared.volume, input.folders, progress);
   prepared.transfer = transfer_of(scene, prepared.volume);
   prepared.scene = std::move(scene);
   prepare_again(prepared);
