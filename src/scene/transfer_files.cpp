@@ -135,6 +135,13 @@ std::size_t hidden_points(const TransferFile& file) {
   return hidden;
 }
 
+/// Whether a display differs from the plain one.
+bool says_something(const SlicerDisplay& display) {
+  const auto flat = [](const OpacityPoint& point) { return point.opacity == 1; };
+  const auto& gradient = display.gradient_opacity;
+  return display.shade || display.interpolation != 1 || !std::all_of(gradient.begin(), gradient.end(), flat);
+}
+
 std::string join_sentences(const std::vector<std::string>& sentences) { return join(sentences, "; "); }
 
 } // namespace
@@ -224,7 +231,7 @@ std::string write_transfer_file(const fs::path& path, const TransferToWrite& wha
   std::vector<std::string> lost;
   std::string text;
   const bool display =
-      what.display && *format != TransferFormat::slicer_text && *format != TransferFormat::slicer_json;
+      what.display && says_something(*what.display) && *format != TransferFormat::slicer_text && *format != TransferFormat::slicer_json;
   switch (*format) {
   case TransferFormat::paraview_json:
     text = paraview_json_text(what);

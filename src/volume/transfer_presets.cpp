@@ -6,7 +6,10 @@
 // it (1 − 0.5⁴ = 0.94).
 #include "core/errors.h"
 #include "core/text.h"
+#include "volume/phantom.h"
 #include "volume/transfer.h"
+
+#include <algorithm>
 
 namespace slicelens {
 
@@ -212,10 +215,91 @@ std::vector<Preset> relative_presets() {
   };
 }
 
+/// The colours of the frog's organs by label, and how opaque they are shown.
+struct OrganColor {
+  double r, g, b, opacity;
+};
+
+constexpr OrganColor kOrganColors[] = {
+    {0, 0, 0, 0},          // air
+    {.42, .58, .26, .020}, // skin
+    {.78, .50, .40, .004}, // muscle
+    {.95, .92, .82, .80},  // skeleton
+    {.96, .96, .90, .70},  // eye
+    {.10, .10, .12, .95},  // lens
+    {.95, .70, .72, .80},  // brain
+    {.98, .90, .35, .80},  // nerves
+    {.62, .80, .95, .35},  // lung
+    {.85, .10, .12, .90},  // heart
+    {.95, .22, .18, .90},  // vessels
+    {.55, .22, .14, .70},  // liver
+    {.20, .65, .25, .90},  // gall bladder
+    {.93, .62, .42, .70},  // stomach
+    {.98, .74, .58, .80},  // small intestine
+    {.72, .45, .35, .80},  // large intestine
+    {.55, .10, .30, .90},  // spleen
+    {.70, .20, .22, .90},  // kidney
+    {.98, .80, .25, .85},  // fat body
+    {.90, .88, .45, .60},  // bladder
+};
+
+TransferPoint organ_point(double value, const OrganColor& color, double opacity) {
+  return {value, color.r, color.g, color.b, opacity};
+}
+
+/// A step half-way between two labels.
+std::vector<TransferPoint> label_points() {
+  std::vector<TransferPoint> points;
+  for (const OrganInfo& organ : organs()) {
+    const OrganColor& color = kOrganColors[organ.label];
+    if (organ.label > 0)
+      points.push_back(organ_point(organ.label - 0.5, color, color.opacity));
+    if (organ.label + 1U < organs().size())
+      points.push_back(organ_point(organ.label + 0.5, color, color.opacity));
+  }
+  return points;
+}
+
+std::vector<Preset> phantom_presets() {
+  return {
+      {{"organs", "the frog's skeleton and organs in warm colours inside a translucent skin", false,
+        "values of phantom organs"},
+       {{3, .50, .70, .40, 0},
+        {14, .45, .65, .32, .016},
+        {30, .40, .60, .26, .030},
+        {40, .55, .40, .28, .003},
+        {52, .70, .40, .25, .006},
+        {62, .96, .78, .34, .09},
+        {80, .92, .80, .55, .10},
+        {95, .80, .45, .40, .07},
+        {110, .58, .22, .15, .15},
+        {130, .62, .16, .16, .20},
+        {142, .82, .14, .12, .30},
+        {155, .92, .24, .18, .30},
+        {166, .94, .58, .40, .17},
+        {190, .97, .76, .60, .24},
+        {204, .96, .88, .74, .50},
+        {226, .98, .95, .86, .95}}},
+      {{"organs-labels", "a colour for each organ of the frog, by its label", false,
+        "labels of phantom organs-labels"},
+       label_points()},
+      {{"colon", "the wall seen from inside and outside, translucent; polyps red", false,
+        "HU of phantom colon"},
+       {{-960, .75, .60, .58, 0},
+        {-700, .85, .68, .62, .12},
+        {-400, .95, .74, .66, .20},
+        {-200, .95, .70, .62, .06},
+        {-110, .95, .65, .58, 0},
+        {50, .90, .50, .40, 0},
+        {70, .85, .12, .10, .6},
+        {90, .85, .10, .08, .9}}},
+  };
+}
+
 const std::vector<Preset>& all_presets() {
   static const std::vector<Preset> list = [] {
     std::vector<Preset> all = bone_presets();
-    for (auto* more : {&soft_tissue_presets, &relative_presets}) {
+    for (auto* more : {&soft_tissue_presets, &relative_presets, &phantom_presets}) {
       for (Preset& entry : more())
         all.push_back(std::move(entry));
     }

@@ -157,7 +157,7 @@ void add_list(CLI::App& app, ListOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand("list", "what this program knows");
   command
       .add_option("what", options.what,
-                  "contexts, figures, keys, lens-keys, phantoms, pipelines, presets or warps")
+                  "contexts, figures, keys, labels, lens-keys, phantoms, pipelines, presets or warps")
       ->type_name("");
   command.callback([&options, &run] { run = [&options] { run_list(options); }; });
 }

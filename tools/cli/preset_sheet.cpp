@@ -24,6 +24,8 @@ Image preset_sheet(OpenContext& context, const Progress& progress) {
   std::vector<Image> tiles;
   std::vector<std::string> captions;
   for (const PresetInfo& preset : presets()) {
+    if (!preset.relative && preset.unit != "HU")
+      continue; // of another phantom's values
     const Scene scene = scene_from_json(preset_scene(preset), preset.name);
     Volume& head = heads[*scene.volume.phantom];
     if (head.voxels.empty())

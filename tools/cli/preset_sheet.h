@@ -7,8 +7,9 @@
 
 namespace slicelens::cli {
 
-/// A labelled tile for each preset: those in HU on `head`, those relative to the data's range on `head-mr`;
-/// CT-MIP, MR-MIP and CT-X-ray in the mode that they are made for. `context` may be open or not.
+/// A labelled tile for each preset but those of single phantoms: those in HU on `head`, those relative to the
+/// data's range on `head-mr`; CT-MIP, MR-MIP and CT-X-ray in the mode that they are made for. `context` may
+/// be open or not.
 Image preset_sheet(OpenContext& context, const Progress& progress);
 
 /// The scene of one tile, as one line of JSON.
