@@ -1,7 +1,13 @@
 // Second pass of MIP by slices: classifies the largest value of each pixel once, at the end.
 
 #include "lib/composite.glsl"
+#ifdef VOLUMES
+#include "lib/opacity.glsl"
+#include "lib/shade.glsl"
+#include "generated/volumes.glsl"
+#else
 #include "gpu/classify.glsl"
+#endif
 #include "gpu/focus_effects.glsl"
 
 uniform sampler2D maxima;
@@ -12,9 +18,14 @@ out vec4 result;
 
 void main() {
   vec4 largest = texelFetch(maxima, ivec2(gl_FragCoord.xy), 0);
+#ifdef VOLUMES
+  vec4 shown = color_of_units(largest);
+  result = associated(shown.rgb, shown.a);
+#else
   vec4 color = classify(value_from_unit.x * largest.r + value_from_unit.y);
 #ifdef FOCUS_EFFECTS
   color = with_effects(color, largest.gb);  // those of the largest sample
 #endif
   result = largest.a > 0.0 ? associated(color.rgb, color.a) : vec4(0.0);
+#endif
 }

@@ -2,6 +2,7 @@
 // table of displacements (LaMar 2001 §6, dependent texture); otherwise the homogeneous coordinate is divided.
 // FILTER_LINEAR_EXACT weighs the four texels in float, where drivers filter with weights of 8 bits.
 
+#include "generated/warps.glsl"
 #include "gpu/warp.glsl"
 
 uniform sampler2D image_texture;

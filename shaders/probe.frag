@@ -4,6 +4,7 @@
 #include "lib/composite.glsl"
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
+#include "generated/warps.glsl"
 #include "gpu/warp.glsl"
 #include "gpu/focus_effects.glsl"
 #include "gpu/gradient.glsl"

@@ -4,14 +4,19 @@
 #include "lib/opacity.glsl"
 #include "lib/composite.glsl"
 #include "lib/ray.glsl"
+#include "lib/shade.glsl"
+#ifdef VOLUMES
+#include "generated/volumes.glsl"
+#else
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
 #include "gpu/classified.glsl"
-#include "lib/shade.glsl"
+#include "generated/warps.glsl"
 #include "gpu/warp.glsl"
-#include "gpu/focus_effects.glsl"
 #include "gpu/gradient.glsl"
 #include "gpu/light.glsl"
+#endif
+#include "gpu/focus_effects.glsl"
 #ifdef CUT_PLANES
 #include "gpu/plane.glsl"
 uniform CutPlane planes[CUT_PLANES];
@@ -31,6 +36,28 @@ uniform vec4 clip_planes[MAX_CLIP_PLANES];
 in vec2 place;
 out vec4 result;
 
+#ifdef VOLUMES
+// Several volumes: the samples of all at this place are one sample. Under MIP each volume has its own channel.
+vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
+#if defined(MODE_MIP)
+  return max(gathered, all_units(p));
+#else
+  vec4 sample_color = all_samples(p, to_eye);
+#if defined(MODE_XRAY)
+  vec4 grey = vec4(1.0, 1.0, 1.0, sample_color.a * distance_ratio);
+#ifdef FOCUS_EFFECTS
+  grey = with_effects(grey, effects_at(p));
+#endif
+  return gathered + associated(grey.rgb, grey.a);
+#else
+#ifdef FOCUS_EFFECTS
+  sample_color = with_effects(sample_color, effects_at(p));
+#endif
+  return under(gathered, associated(sample_color.rgb, corrected_opacity(sample_color.a, distance_ratio)));
+#endif
+#endif
+}
+#else
 vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #ifdef WARPED
   vec3 t = texture_from_object(p);
@@ -81,6 +108,8 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #endif
 }
 
+#endif
+
 #ifdef CUT_PLANES
 // The nearest cutting plane on the ray: its distance (beyond the interval: none) and colour. Planes are not cut by clipping planes.
 vec4 nearest_plane(PixelRay ray, vec2 interval, inout float nearest) {
@@ -120,7 +149,7 @@ void main() {
   interval.y = min(interval.y, stop);
 #endif
   for (int i = 0; i < clip_count; ++i) interval = clip_interval(interval, ray, clip_planes[i]);
-#if defined(MODE_MIP)
+#if defined(MODE_MIP) && !defined(VOLUMES)
   vec4 gathered = vec4(-3.0e38, 0.0, 0.0, 0.0);
 #else
   vec4 gathered = vec4(0.0);
@@ -136,7 +165,10 @@ void main() {
 #endif
     }
   }
-#if defined(MODE_MIP)
+#if defined(MODE_MIP) && defined(VOLUMES)
+  vec4 shown = color_of_units(gathered);
+  gathered = associated(shown.rgb, shown.a);
+#elif defined(MODE_MIP)
   if (gathered.w > 0.0) {
     vec4 color = classify(gathered.x);
 #ifdef FOCUS_EFFECTS

@@ -6,19 +6,25 @@
 // corrected already. WARP_TESSELLATED divides the homogeneous coordinate that the mesh carries, WARP_SUBDIVIDED
 // also tests where it looks: that mesh is not clipped in the data;
 // WARP_FRAGMENT evaluates the warps here; AXIS_TABLES reads them from Cohen's tables. HIGHLIGHT and ATTENUATION follow the
-// coordinate where the sample is shown; under MIP the winner of the depth test keeps its own.
+// coordinate where the sample is shown; under MIP the winner of the depth test keeps its own. VOLUMES: there are several
+// (gpu/one_volume.glsl); under MIP each has its own channel.
 
 #include "lib/opacity.glsl"
 #include "lib/composite.glsl"
+#include "lib/shade.glsl"
+#ifdef VOLUMES
+#include "generated/volumes.glsl"
+#else
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
 #include "gpu/classified.glsl"
-#include "lib/shade.glsl"
+#include "generated/warps.glsl"
 #include "gpu/warp.glsl"
 #include "gpu/axis_tables.glsl"
-#include "gpu/focus_effects.glsl"
 #include "gpu/gradient.glsl"
 #include "gpu/light.glsl"
+#endif
+#include "gpu/focus_effects.glsl"
 
 uniform float distance_ratio;     // Δ/Δ₀ on the view axis
 uniform vec4 slope_from_pixel;    // perspective: tangents of the ray's angles = xy · gl_FragCoord + zw
@@ -50,6 +56,28 @@ vec3 direction_to_eye(vec3 p) {
 #endif
 }
 
+#ifdef VOLUMES
+// Several volumes: the samples of all at this place are one sample.
+void main() {
+#if defined(MODE_MIP)
+  result = all_units(object_coordinate);
+#else
+  vec4 sample_color = all_samples(object_coordinate, direction_to_eye(object_coordinate));
+#if defined(MODE_XRAY)
+  vec4 grey = vec4(1.0, 1.0, 1.0, sample_color.a * sample_ratio());
+#ifdef FOCUS_EFFECTS
+  grey = with_effects(grey, effects_at(object_coordinate));
+#endif
+  result = associated(grey.rgb, grey.a);
+#else
+#ifdef FOCUS_EFFECTS
+  sample_color = with_effects(sample_color, effects_at(object_coordinate));
+#endif
+  result = associated(sample_color.rgb, corrected_opacity(sample_color.a, sample_ratio()));
+#endif
+#endif
+}
+#else
 void main() {
 #if defined(WARP_TESSELLATED)
   vec3 texture_coordinate = homogeneous_coordinate.xyz / homogeneous_coordinate.w;
@@ -129,3 +157,4 @@ void main() {
 #endif
 #endif
 }
+#endif

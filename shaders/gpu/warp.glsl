@@ -1,9 +1,7 @@
 // The scene's warps. WARPED: there are some; their functions and uniforms are written by the host
-// (src/render/warp_glsl.cpp).
+// (src/render/warp_glsl.cpp) and come before this file.
 
 #ifdef WARPED
-#include "generated/warps.glsl"
-
 uniform vec3 box_size;  // box space = texture coordinates · box_size
 
 // Where the data shown at p is: u = u_1 ∘ … ∘ u_n (docs/pipeline.md).

@@ -168,41 +168,45 @@ Program make_program(const Functions& gl, const std::vector<ShaderSource>& sourc
   return program;
 }
 
-GLint uniform_location(const Functions& gl, const Program& program, const char* name) {
-  return gl.GetUniformLocation(program.name(), name);
+GLint uniform_location(const Functions& gl, const Uniforms& uniforms, const char* name) {
+  if (uniforms.suffix.empty())
+    return gl.GetUniformLocation(uniforms.program.name(), name);
+  std::string full(name);
+  full.insert(std::min(full.find_first_of(".["), full.size()), uniforms.suffix);
+  return gl.GetUniformLocation(uniforms.program.name(), full.c_str());
 }
 
-void set_uniform(const Functions& gl, const Program& program, const char* name, int value) {
-  gl.Uniform1i(uniform_location(gl, program, name), value);
+void set_uniform(const Functions& gl, const Uniforms& uniforms, const char* name, int value) {
+  gl.Uniform1i(uniform_location(gl, uniforms, name), value);
 }
-void set_uniform(const Functions& gl, const Program& program, const char* name, float value) {
-  gl.Uniform1f(uniform_location(gl, program, name), value);
+void set_uniform(const Functions& gl, const Uniforms& uniforms, const char* name, float value) {
+  gl.Uniform1f(uniform_location(gl, uniforms, name), value);
 }
-void set_uniform(const Functions& gl, const Program& program, const char* name, const glm::ivec2& value) {
-  gl.Uniform2iv(uniform_location(gl, program, name), 1, &value[0]);
+void set_uniform(const Functions& gl, const Uniforms& uniforms, const char* name, const glm::ivec2& value) {
+  gl.Uniform2iv(uniform_location(gl, uniforms, name), 1, &value[0]);
 }
-void set_uniform(const Functions& gl, const Program& program, const char* name, const glm::ivec3& value) {
-  gl.Uniform3iv(uniform_location(gl, program, name), 1, &value[0]);
+void set_uniform(const Functions& gl, const Uniforms& uniforms, const char* name, const glm::ivec3& value) {
+  gl.Uniform3iv(uniform_location(gl, uniforms, name), 1, &value[0]);
 }
-void set_uniform(const Functions& gl, const Program& program, const char* name, const glm::vec2& value) {
-  gl.Uniform2fv(uniform_location(gl, program, name), 1, &value[0]);
+void set_uniform(const Functions& gl, const Uniforms& uniforms, const char* name, const glm::vec2& value) {
+  gl.Uniform2fv(uniform_location(gl, uniforms, name), 1, &value[0]);
 }
-void set_uniform(const Functions& gl, const Program& program, const char* name, const glm::vec3& value) {
-  gl.Uniform3fv(uniform_location(gl, program, name), 1, &value[0]);
+void set_uniform(const Functions& gl, const Uniforms& uniforms, const char* name, const glm::vec3& value) {
+  gl.Uniform3fv(uniform_location(gl, uniforms, name), 1, &value[0]);
 }
-void set_uniform(const Functions& gl, const Program& program, const char* name, const glm::vec4& value) {
-  gl.Uniform4fv(uniform_location(gl, program, name), 1, &value[0]);
+void set_uniform(const Functions& gl, const Uniforms& uniforms, const char* name, const glm::vec4& value) {
+  gl.Uniform4fv(uniform_location(gl, uniforms, name), 1, &value[0]);
 }
-void set_uniform(const Functions& gl, const Program& program, const char* name, const glm::mat3& value) {
-  gl.UniformMatrix3fv(uniform_location(gl, program, name), 1, GL_FALSE, &value[0][0]);
+void set_uniform(const Functions& gl, const Uniforms& uniforms, const char* name, const glm::mat3& value) {
+  gl.UniformMatrix3fv(uniform_location(gl, uniforms, name), 1, GL_FALSE, &value[0][0]);
 }
-void set_uniform(const Functions& gl, const Program& program, const char* name, const glm::mat4& value) {
-  gl.UniformMatrix4fv(uniform_location(gl, program, name), 1, GL_FALSE, &value[0][0]);
+void set_uniform(const Functions& gl, const Uniforms& uniforms, const char* name, const glm::mat4& value) {
+  gl.UniformMatrix4fv(uniform_location(gl, uniforms, name), 1, GL_FALSE, &value[0][0]);
 }
-void set_uniform(const Functions& gl, const Program& program, const char* name,
+void set_uniform(const Functions& gl, const Uniforms& uniforms, const char* name,
                  std::span<const glm::vec4> values) {
   if (!values.empty())
-    gl.Uniform4fv(uniform_location(gl, program, name), static_cast<GLsizei>(values.size()), &values[0][0]);
+    gl.Uniform4fv(uniform_location(gl, uniforms, name), static_cast<GLsizei>(values.size()), &values[0][0]);
 }
 
 } // namespace slicelens::gl

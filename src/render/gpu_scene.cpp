@@ -208,6 +208,11 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
                                                   : scene.whole_bytes;
   scene.bytes += scene.gradients.bytes;
   scene.bytes += grid_bytes(maps);
+  for (const PreparedScene& other : prepared.others) {
+    scene.others.push_back(upload(gl, other, progress));
+    scene.bytes += scene.others.back().bytes;
+    scene.whole_bytes += scene.others.back().whole_bytes;
+  }
   return scene;
 }
 

@@ -26,6 +26,7 @@ struct GpuScene {
   GradientTexture gradients;      ///< for shading
   AxisTextures axis;              ///< empty but under pipeline `axis`
   std::vector<gl::Texture> grids; ///< of the maps that are held in grids, in their order
+  std::vector<GpuScene> others;   ///< of the volumes after the first
 };
 
 /// The texture that render.volume_texture `auto` stands for: r16 for integers of 8 and 16 bits, which it

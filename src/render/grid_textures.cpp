@@ -1,7 +1,6 @@
 #include "render/grid_textures.h"
 
 #include "core/errors.h"
-#include "render/warp_glsl.h"
 
 namespace slicelens {
 
@@ -25,9 +24,10 @@ std::vector<gl::Texture> upload_grids(const gl::Functions& gl, const std::vector
   return textures;
 }
 
-void bind_grids(const gl::Functions& gl, const std::vector<gl::Texture>& grids) {
+void bind_grids(const gl::Functions& gl, const std::vector<gl::Texture>& grids,
+                const std::vector<GLenum>& units) {
   for (std::size_t i = 0; i < grids.size(); ++i) {
-    gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(grid_unit) + static_cast<GLenum>(i));
+    gl.ActiveTexture(GL_TEXTURE0 + units.at(i));
     gl.BindTexture(GL_TEXTURE_3D, grids[i].name());
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gl/texture.h"
+#include "render/warp_glsl.h"
 #include "warp/warp.h"
 
 #include <vector>
@@ -13,7 +14,8 @@ namespace slicelens {
 std::vector<gl::Texture> upload_grids(const gl::Functions& gl, const std::vector<WarpMap>& maps);
 
 /// Binds them to the units that set_warp_maps names.
-void bind_grids(const gl::Functions& gl, const std::vector<gl::Texture>& grids);
+void bind_grids(const gl::Functions& gl, const std::vector<gl::Texture>& grids,
+                const std::vector<GLenum>& units = grid_units);
 
 /// Bytes of all of them.
 std::size_t grid_bytes(const std::vector<WarpMap>& maps);

@@ -6,19 +6,44 @@
 #include "volume/pyramid.h"
 #include "warp/object_bounds.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace slicelens {
 
-PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer) {
+namespace {
+
+PreparedScene unprepared(Scene scene, Volume volume, TransferFunction transfer) {
   PreparedScene prepared;
   prepared.scene = std::move(scene);
-  prepared.volume = std::move(volume);
   prepared.transfer = std::move(transfer);
-  if (prepared.volume.components != 1)
+  set_volume(prepared, std::move(volume));
+  return prepared;
+}
+
+} // namespace
+
+void set_volume(PreparedScene& prepared, Volume volume) {
+  if (volume.components != 1)
     throw UsageError("a volume of several components cannot be drawn; choose volume.component");
+  prepared.volume = std::move(volume);
+  prepared.file_geometry = {prepared.volume.spacing, prepared.volume.origin, prepared.volume.direction};
+  prepared.pyramid.clear();
+}
+
+PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer,
+                      std::vector<LoadedVolume> others) {
+  if (others.size() != scene.others.size())
+    throw UsageError("the scene has " + std::to_string(volume_count(scene)) + " volumes, the data " +
+                     std::to_string(1 + others.size()));
+  PreparedScene prepared = unprepared(std::move(scene), std::move(volume), std::move(transfer));
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    prepared.others.push_back(unprepared(scene_of_volume(prepared.scene, i + 1), std::move(others[i].volume),
+                                         std::move(others[i].transfer)));
+  }
   prepare_again(prepared);
   return prepared;
 }
@@ -109,7 +134,7 @@ void prepare_warps(PreparedScene& prepared) {
   prepared.object_low = texture_from_box(prepared.space, shown.low);
   prepared.object_high = texture_from_box(prepared.space, shown.high);
   prepared.map_grid.reset();
-  if (prepared.scene.render.pipeline == Pipeline::grid && is_warped(prepared)) {
+  if (prepared.scene.render.pipeline == Pipeline::grid && !prepared.maps.empty()) {
     prepared.map_grid = GridMap{std::make_shared<const MapGrid>(
         make_map_grid(prepared.maps, prepared.scene.render.grid_size, shown.low, shown.high))};
   }
@@ -148,22 +173,63 @@ void prepare_pyramid(PreparedScene& prepared) {
         half_size(prepared.pyramid.empty() ? prepared.volume : prepared.pyramid.back()));
 }
 
-} // namespace
+/// Puts the volume where its placement says. `middle`: of the first volume, which `align` may ask for.
+void place(PreparedScene& prepared, const std::optional<glm::dvec3>& middle) {
+  Volume& volume = prepared.volume;
+  const FileGeometry& file = prepared.file_geometry;
+  volume.spacing = file.spacing;
+  volume.origin = file.origin;
+  volume.direction = file.direction;
+  const Placement& placement = prepared.scene.placement;
+  if (placement == Placement{})
+    return;
+  const glm::dvec3 own_middle = center(box_of(volume));
+  glm::dmat3 turn(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 about(0);
+    about[axis] = 1;
+    turn = glm::dmat3(glm::rotate(glm::dmat4(1), glm::radians(placement.rotate[axis]), about)) * turn;
+  }
+  const glm::dvec3 at =
+      (placement.align == Alignment::center && middle ? *middle : own_middle) + placement.translate;
+  const glm::dmat3 turned = turn * file.direction;
+  // From the middle to voxel (0,0,0), along the axes, which need not be at right angles.
+  const glm::dvec3 steps = glm::inverse(file.direction) * (file.origin - own_middle);
+  volume.spacing = file.spacing * placement.scale;
+  volume.direction = turned;
+  volume.origin = at + turned * (steps * placement.scale);
+}
 
-void prepare_again(PreparedScene& prepared) {
+/// The smallest box along the first volume's axes that holds all of them, undeformed: the first one's own
+/// where there is no other.
+Box box_of_all(const PreparedScene& prepared) {
+  if (prepared.others.empty())
+    return prepared.box;
+  Bounds bounds{glm::dvec3(0), glm::dvec3(1)};
+  const glm::dmat4 to_first = texture_from_world(prepared.box);
+  for (const PreparedScene& other : prepared.others) {
+    for (const glm::dvec3& corner : corners(other.box)) {
+      const glm::dvec3 t(to_first * glm::dvec4(corner, 1));
+      bounds.low = glm::min(bounds.low, t);
+      bounds.high = glm::max(bounds.high, t);
+    }
+  }
+  const glm::dmat4 moved = glm::translate(prepared.box.world_from_texture, bounds.low);
+  return {glm::scale(moved, bounds.high - bounds.low)};
+}
+
+/// All that one volume needs but the view. `first`: whose texture coordinates clipping planes are given in.
+void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
   const Scene& scene = prepared.scene;
   const double h = smallest_spacing(prepared.volume);
-  prepared.box = box_of(prepared.volume);
-  prepared.view = make_view(scene.camera, prepared.box, static_cast<int>(scene.render.size[0]),
-                            static_cast<int>(scene.render.size[1]));
-  prepared.spacing = scene.render.spacing * h;
+  prepared.spacing = spacing;
   prepared.unit_distance = prepared.transfer.unit_distance.value_or(h);
   prepared.xray_scale =
       scene.render.xray_scale.value_or(prepared.unit_distance / (2 * bounding_radius(prepared.box)));
   prepared.data_clip.clear();
   prepared.object_clip.clear();
   for (const ClipSettings& plane : scene.clip) {
-    const Plane world{plane.normal, glm::dot(plane.normal, world_from_texture(prepared.box, plane.point))};
+    const Plane world{plane.normal, glm::dot(plane.normal, world_from_texture(first, plane.point))};
     auto& planes = plane.space == ClipSpace::texture ? prepared.data_clip : prepared.object_clip;
     planes.push_back(pull_back(world, prepared.box.world_from_texture));
   }
@@ -173,6 +239,67 @@ void prepare_again(PreparedScene& prepared) {
   if (is_bricked(scene.render))
     (void)plan_bricks(prepared); // refuses tiles and levels that the volume has no voxels for
   prepare_pyramid(prepared);
+}
+
+/// Widens the bounds of what is displayed to all volumes.
+void include_others(PreparedScene& prepared) {
+  for (std::size_t i = 1; i < volume_count(prepared); ++i) {
+    const PreparedScene& other = volume_at(prepared, i);
+    const glm::dmat4 to_first = glm::inverse(own_from_first(prepared, i));
+    for (int k = 0; k < 8; ++k) {
+      const glm::dvec3 corner =
+          glm::mix(other.object_low, other.object_high, glm::dvec3(k & 1, k >> 1 & 1, k >> 2 & 1));
+      const glm::dvec3 t(to_first * glm::dvec4(corner, 1));
+      prepared.object_low = glm::min(prepared.object_low, t);
+      prepared.object_high = glm::max(prepared.object_high, t);
+    }
+  }
+}
+
+} // namespace
+
+void prepare_again(PreparedScene& prepared) {
+  place(prepared, std::nullopt);
+  prepared.box = box_of(prepared.volume);
+  double h = smallest_spacing(prepared.volume);
+  for (std::size_t i = 0; i < prepared.others.size(); ++i) {
+    PreparedScene& other = prepared.others[i];
+    other.scene = scene_of_volume(prepared.scene, i + 1);
+    place(other, center(prepared.box));
+    other.box = box_of(other.volume);
+    h = std::min(h, smallest_spacing(other.volume));
+  }
+  const RenderSettings& render = prepared.scene.render;
+  prepared.view = make_view(prepared.scene.camera, box_of_all(prepared), static_cast<int>(render.size[0]),
+                            static_cast<int>(render.size[1]));
+  const double spacing = render.spacing * h;
+  prepare_one(prepared, prepared.box, spacing);
+  for (PreparedScene& other : prepared.others) {
+    other.view = prepared.view;
+    prepare_one(other, prepared.box, spacing);
+  }
+  include_others(prepared);
+}
+
+PreparedScene one_volume(PreparedScene prepared, std::size_t index) {
+  if (index > 0) {
+    PreparedScene other = std::move(prepared.others[index - 1]);
+    return other;
+  }
+  // The bounds go back to the first volume's own; the view stays that of all.
+  const View view = prepared.view;
+  const double spacing = prepared.spacing;
+  prepared.others.clear();
+  prepared.scene = scene_of_volume(prepared.scene, 0);
+  prepared.view = view;
+  prepare_one(prepared, prepared.box, spacing);
+  return prepared;
+}
+
+glm::dmat4 own_from_first(const PreparedScene& prepared, std::size_t index) {
+  if (index == 0)
+    return glm::dmat4(1);
+  return texture_from_world(volume_at(prepared, index).box) * prepared.box.world_from_texture;
 }
 
 AxisTables axis_tables_of(const PreparedScene& prepared) {

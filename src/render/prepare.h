@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/view.h"
+#include "scene/load.h"
 #include "scene/scene.h"
 #include "slicing/polygon.h"
 #include "tess/lens_mesh.h"
@@ -22,6 +23,13 @@ struct HeldWarp {
   std::variant<Landmarks, Field> warp;
   BoxSpace space;
   GridMap map;
+};
+
+/// Where a volume's file puts it.
+struct FileGeometry {
+  glm::dvec3 spacing{1};
+  glm::dvec3 origin{0};
+  glm::dmat3 direction{1};
 };
 
 /// Lengths are in world units. Plain data: change the scene, prepare again.
@@ -50,6 +58,10 @@ struct PreparedScene {
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};
+  FileGeometry file_geometry; ///< of `volume`, which lies where its placement puts it
+  /// The volumes after the first, each as a scene of its own under the same view and spacing. The bounds
+  /// above are then those of all volumes, in the first one's texture coordinates.
+  std::vector<PreparedScene> others;
 };
 
 /// The tables that pipeline `axis` reads, whatever the scene's pipeline: one texel for each voxel, or
@@ -62,11 +74,32 @@ std::vector<WarpMap> drawn_maps(const PreparedScene& prepared);
 /// How far the picture of pipeline `grid` looks from where it should. Needs prepared.map_grid.
 MapGridError map_grid_error(const PreparedScene& prepared);
 
-/// Whether any point of the displayed volume may look elsewhere in the data.
-inline bool is_warped(const PreparedScene& prepared) { return !prepared.maps.empty(); }
+/// Whether any point of the displayed volume may look elsewhere in the data, or outside: what is drawn beside
+/// other volumes reaches beyond each of them.
+inline bool is_warped(const PreparedScene& prepared) {
+  return !prepared.maps.empty() || !prepared.others.empty();
+}
 
-/// Works out the rest. Throws UsageError where scene and data do not fit.
-PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer);
+inline std::size_t volume_count(const PreparedScene& prepared) { return 1 + prepared.others.size(); }
+
+/// Volume `index`, 0 for the first.
+inline const PreparedScene& volume_at(const PreparedScene& prepared, std::size_t index) {
+  return index == 0 ? prepared : prepared.others[index - 1];
+}
+
+/// Volume `index` alone, seen as in the whole. Moves the data out of `prepared`.
+PreparedScene one_volume(PreparedScene prepared, std::size_t index);
+
+/// From the first volume's texture coordinates to those of volume `index`: where it is displayed.
+glm::dmat4 own_from_first(const PreparedScene& prepared, std::size_t index);
+
+/// Works out the rest. `others` are the data of scene.others. Throws UsageError where scene and data do not
+/// fit.
+PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer,
+                      std::vector<LoadedVolume> others = {});
+
+/// Takes other data for the first volume or, from prepared.others, for one after it. Prepare again.
+void set_volume(PreparedScene& prepared, Volume volume);
 
 /// The same data seen by another camera or with other render settings; nothing is read again.
 void prepare_again(PreparedScene& prepared);

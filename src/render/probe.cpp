@@ -4,9 +4,9 @@
 #include "gl/state.h"
 #include "gl/target.h"
 #include "render/gpu_scene.h"
+#include "render/several_volumes.h"
 #include "render/shaders.h"
 #include "render/uniforms.h"
-#include "render/warp_glsl.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,7 @@ gl::Program probe_program(const gl::Functions& gl, const PreparedScene& prepared
       macros.emplace_back("GRADIENT_IN_OBJECT_SPACE");
   }
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "probe.vert", {});
-  const auto fragment =
-      shader_stage(GL_FRAGMENT_SHADER, "probe.frag", macros, {warp_chain(drawn_maps(prepared))});
+  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "probe.frag", macros, generated_files(prepared));
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   return gl::make_program(gl, stages);
 }

@@ -5,9 +5,9 @@
 #include "gl/timer.h"
 #include "render/cut_planes.h"
 #include "render/ray_frame.h"
+#include "render/several_volumes.h"
 #include "render/shaders.h"
 #include "render/uniforms.h"
-#include "render/warp_glsl.h"
 
 #include <algorithm>
 
@@ -54,8 +54,7 @@ RayRenderer::RayRenderer(const gl::Functions& gl, const PreparedScene& prepared)
   if (!prepared.scene.planes.empty())
     macros.push_back("CUT_PLANES " + std::to_string(prepared.scene.planes.size()));
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});
-  const auto fragment =
-      shader_stage(GL_FRAGMENT_SHADER, "rays.frag", macros, {warp_chain(drawn_maps(prepared))});
+  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "rays.frag", macros, generated_files(prepared));
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   program_ = gl::make_program(gl, stages);
   no_vertices_ = gl::make_vertex_array(gl);

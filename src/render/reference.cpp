@@ -5,6 +5,7 @@
 #include "render/level_values.h"
 #include "render/pre_classification.h"
 #include "render/ray_frame.h"
+#include "render/several_volumes.h"
 #include "render/smooth_copy.h"
 #include "render/voxel_filter.h"
 #include "volume/gradient_volume.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <mutex>
 
 namespace slicelens {
@@ -29,11 +31,25 @@ using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
 
 struct SharedFunctions {
+#include "lib/combine.glsl"
 #include "lib/composite.glsl"
 #include "lib/opacity.glsl"
 #include "lib/ray.glsl"
 #include "lib/shade.glsl"
 };
+
+/// One of several volumes, whatever the type of its voxels.
+struct VolumeSampler {
+  virtual ~VolumeSampler() = default;
+  /// Straight colour, and opacity per reference length of the first volume, at a point of the first one's
+  /// texture coordinates; nothing outside.
+  virtual vec4 color(vec3 first, vec3 to_eye) = 0;
+  /// The data value there; −∞ outside.
+  virtual real value(vec3 first) = 0;
+  /// Colour and opacity of a value, as above.
+  virtual vec4 classified(real value) const = 0;
+};
+using VolumeSamplers = std::vector<std::unique_ptr<VolumeSampler>>;
 
 /// Everything one thread needs to trace rays through voxels of type T.
 template <class T>
@@ -50,6 +66,7 @@ struct Tracer : SharedFunctions {
   Correction correction;
   real ratio;
   std::vector<CutPlane> planes;
+  VolumeSamplers volumes; ///< all of several volumes; none for a single one
 
   Tracer(const PreparedScene& scene, const std::byte* classified_voxels, const SmoothCopy* smooth_voxels)
       : prepared(scene), voxels(reinterpret_cast<const T*>(scene.volume.voxels.data())),
@@ -190,7 +207,49 @@ struct Tracer : SharedFunctions {
     return vec4(mix(vec3(color), prepared.effects.highlight_color, focus.y), color.w * focus.x);
   }
 
+  /// Straight colour and opacity per own reference length.
+  vec4 sample_color(vec3 t, vec3 p, vec3 to_eye) {
+    const vec4 color = evaluate(prepared.transfer, displayed_value(t));
+    if (prepared.scene.render.shading == Shading::none || color.w == 0)
+      return color;
+    return vec4(shaded(vec3(color), t, p, to_eye), color.w);
+  }
+
+  /// Of all volumes together.
+  vec4 gather_several(vec4 gathered, vec3 p, vec3 to_eye) {
+    const Mode mode = prepared.scene.render.mode;
+    vec4 samples[max_volumes];
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+      if (mode == Mode::mip)
+        gathered[static_cast<int>(i)] = max(gathered[static_cast<int>(i)], volumes[i]->value(p));
+      else
+        samples[i] = volumes[i]->color(p, to_eye);
+    }
+    if (mode == Mode::mip)
+      return gathered;
+    vec4 color =
+        this->combined(samples, static_cast<int>(volumes.size()), static_cast<int>(prepared.scene.combine));
+    if (mode == Mode::xray) {
+      const vec4 grey = with_effects(vec4(1, 1, 1, color.w * ratio), focus_at(p));
+      return gathered + this->associated(vec3(grey), grey.w);
+    }
+    color = with_effects(color, focus_at(p));
+    return this->under(gathered, this->associated(vec3(color), this->corrected_opacity(color.w, ratio)));
+  }
+
+  /// MIP of several volumes: the colour of their largest values.
+  vec4 classified_maxima(vec4 largest) {
+    vec4 samples[max_volumes];
+    for (std::size_t i = 0; i < volumes.size(); ++i)
+      samples[i] = volumes[i]->classified(largest[static_cast<int>(i)]);
+    const vec4 color =
+        this->combined(samples, static_cast<int>(volumes.size()), static_cast<int>(prepared.scene.combine));
+    return this->associated(vec3(color), color.w);
+  }
+
   vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
+    if (!volumes.empty())
+      return gather_several(gathered, p, to_eye);
     if (!prepared.pyramid.empty())
       level = level_at(prepared, p);
     const vec3 t = data_point(p);
@@ -201,21 +260,18 @@ struct Tracer : SharedFunctions {
       const vec4 color = classified_sample(t);
       return mode == Mode::xray ? gathered + vec4(color.w * ratio) : this->under(gathered, color);
     }
-    const real value = displayed_value(t);
-    if (mode == Mode::mip)
+    if (mode == Mode::mip) {
+      const real value = displayed_value(t);
       return value > gathered.x ? vec4(value, focus_at(p), 1) : gathered;
-    vec4 color = evaluate(prepared.transfer, value);
+    }
     if (mode == Mode::xray) {
+      const vec4 color = evaluate(prepared.transfer, displayed_value(t));
       const vec4 grey = with_effects(vec4(1, 1, 1, color.w * ratio), focus_at(p));
       return gathered + this->associated(vec3(grey), grey.w);
     }
-    vec3 rgb(color);
-    if (prepared.scene.render.shading != Shading::none && color.w > 0)
-      rgb = shaded(rgb, t, p, to_eye);
-    color = with_effects(vec4(rgb, color.w), focus_at(p));
-    rgb = vec3(color);
+    const vec4 color = with_effects(sample_color(t, p, to_eye), focus_at(p));
     const real alpha = correction == Correction::none ? color.w : this->corrected_opacity(color.w, ratio);
-    return this->under(gathered, this->associated(rgb, alpha));
+    return this->under(gathered, this->associated(vec3(color), alpha));
   }
 
   /// The nearest cutting plane on the ray within the interval, which ends there, and its opaque colour.
@@ -250,7 +306,10 @@ struct Tracer : SharedFunctions {
     if (!is_warped(prepared))
       std::for_each(prepared.data_clip.begin(), prepared.data_clip.end(), cut);
     const bool mip = prepared.scene.render.mode == Mode::mip;
-    vec4 gathered = mip ? vec4(-std::numeric_limits<real>::infinity(), 0, 0, 0) : vec4(0);
+    const real nothing = -std::numeric_limits<real>::infinity();
+    vec4 gathered(0);
+    if (mip)
+      gathered = volumes.empty() ? vec4(nothing, 0, 0, 0) : vec4(nothing);
     if (interval.x > interval.y)
       return behind;
     const vec3 to_eye = perspective ? -normalize(dmat3(prepared.box.world_from_texture) * ray.direction)
@@ -267,11 +326,44 @@ struct Tracer : SharedFunctions {
     }
     if (!mip)
       return planes.empty() ? gathered : this->under(gathered, behind);
+    if (!volumes.empty())
+      return classified_maxima(gathered);
     if (gathered.w == 0)
       return vec4(0);
     const vec4 color = with_effects(evaluate(prepared.transfer, gathered.x), vec2(gathered.y, gathered.z));
     return this->associated(vec3(color), color.w);
   }
+};
+
+template <class T>
+class TypedSampler : public VolumeSampler {
+public:
+  TypedSampler(const PreparedScene& scene, std::size_t index, const SmoothCopy* smooth)
+      : tracer_(volume_at(scene, index), nullptr, smooth), own_from_first_(own_from_first(scene, index)),
+        length_ratio_(length_ratio(scene, index)) {}
+
+  vec4 color(vec3 first, vec3 to_eye) override {
+    const vec3 p(own_from_first_ * vec4(first, 1));
+    const vec3 t = tracer_.data_point(p);
+    return tracer_.shows_data(t) ? corrected(tracer_.sample_color(t, p, to_eye)) : vec4(0);
+  }
+  real value(vec3 first) override {
+    const vec3 t = tracer_.data_point(vec3(own_from_first_ * vec4(first, 1)));
+    return tracer_.shows_data(t) ? tracer_.displayed_value(t) : -std::numeric_limits<real>::infinity();
+  }
+  vec4 classified(real value) const override {
+    return std::isfinite(value) ? corrected(evaluate(tracer_.prepared.transfer, value)) : vec4(0);
+  }
+
+private:
+  vec4 corrected(vec4 color) const {
+    SharedFunctions shared;
+    return vec4(vec3(color), shared.corrected_opacity(color.w, length_ratio_));
+  }
+
+  Tracer<T> tracer_;
+  dmat4 own_from_first_;
+  real length_ratio_;
 };
 
 SharedFunctions::RayFrame shared_frame(const PreparedScene& prepared) {
@@ -292,6 +384,31 @@ std::optional<SmoothCopy> smooth_voxels(const PreparedScene& prepared) {
                      [&](int i, int j, int k) { return voxels.voxel_value(i, j, k); });
 }
 
+/// Of each of several volumes.
+std::vector<std::optional<SmoothCopy>> smooth_copies(const PreparedScene& prepared) {
+  std::vector<std::optional<SmoothCopy>> copies;
+  for (std::size_t i = 0; i < volume_count(prepared) && !prepared.others.empty(); ++i) {
+    const PreparedScene& volume = volume_at(prepared, i);
+    visit_scalar_type(volume.volume.type, [&](auto* tag) {
+      copies.push_back(smooth_voxels<std::remove_pointer_t<decltype(tag)>>(volume));
+    });
+  }
+  return copies;
+}
+
+/// One sampler for each of several volumes, for one thread.
+VolumeSamplers make_samplers(const PreparedScene& prepared,
+                             const std::vector<std::optional<SmoothCopy>>& copies) {
+  VolumeSamplers samplers;
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    visit_scalar_type(volume_at(prepared, i).volume.type, [&](auto* tag) {
+      using T = std::remove_pointer_t<decltype(tag)>;
+      samplers.push_back(std::make_unique<TypedSampler<T>>(prepared, i, copies[i] ? &*copies[i] : nullptr));
+    });
+  }
+  return samplers;
+}
+
 template <class T>
 void trace_all(const PreparedScene& prepared, Image& image, const Progress& progress) {
   const View& view = prepared.view;
@@ -301,10 +418,12 @@ void trace_all(const PreparedScene& prepared, Image& image, const Progress& prog
     classified = classify_voxels(prepared);
   const std::byte* colors = classified.empty() ? nullptr : classified.data();
   const std::optional<SmoothCopy> smooth = smooth_voxels<T>(prepared);
+  const std::vector<std::optional<SmoothCopy>> copies = smooth_copies(prepared);
   std::atomic<int> done = 0;
   std::mutex reporting;
   tbb::parallel_for(0, view.height, [&](int y) {
     Tracer<T> tracer(prepared, colors, smooth ? &*smooth : nullptr);
+    tracer.volumes = make_samplers(prepared, copies);
     for (int x = 0; x < view.width; ++x) {
       const vec4 color = tracer.trace(frame, view.projection == Projection::perspective,
                                       2 * (x + 0.5) / view.width - 1, 1 - 2 * (y + 0.5) / view.height);

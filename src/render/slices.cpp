@@ -3,11 +3,11 @@
 #include "gl/check.h"
 #include "gl/state.h"
 #include "gl/timer.h"
+#include "render/several_volumes.h"
 #include "render/shaders.h"
 #include "render/stack_geometry.h"
 #include "render/tiled_draw.h"
 #include "render/uniforms.h"
-#include "render/warp_glsl.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -57,7 +57,7 @@ void set_blending(const gl::Functions& gl, const RenderSettings& render) {
 } // namespace
 
 SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
-  const std::vector<EmbeddedFile> generated = {warp_chain(drawn_maps(prepared))};
+  const std::vector<EmbeddedFile> generated = generated_files(prepared);
   std::vector<gl::ShaderSource> stages =
       shader_stage(GL_VERTEX_SHADER, "slices.vert", common_macros(prepared));
   const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "slices.frag", common_macros(prepared), generated);
@@ -69,7 +69,8 @@ SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepa
   no_vertices_ = gl::make_vertex_array(gl);
   if (prepared.scene.render.mode == Mode::mip) {
     std::vector<gl::ShaderSource> second = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});
-    const auto classify = shader_stage(GL_FRAGMENT_SHADER, "classify_maximum.frag", common_macros(prepared));
+    const auto classify =
+        shader_stage(GL_FRAGMENT_SHADER, "classify_maximum.frag", common_macros(prepared), generated);
     second.insert(second.end(), classify.begin(), classify.end());
     classify_program_ = gl::make_program(gl, second);
   }
@@ -135,7 +136,8 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   gl.Disable(GL_DEPTH_TEST);
   gl.Disable(GL_CULL_FACE);
   gl.Disable(GL_DITHER);
-  gl.ClearColor(maxima_ && target.format != GL_RGBA8 ? -1.0F : 0.0F, 0, 0, 0);
+  const bool below_all = maxima_ && target.format != GL_RGBA8 && prepared.others.empty();
+  gl.ClearColor(below_all ? -1.0F : 0.0F, 0, 0, 0);
   gl.Clear(GL_COLOR_BUFFER_BIT);
 
   if (planes_)

@@ -64,7 +64,7 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
   const bool warped = is_warped(prepared);
   // A lens whose footprint no later warp moves is covered tightly, a list of others by the box that holds
   // all.
-  const bool lenses_only = prepared.lenses.size() == prepared.maps.size();
+  const bool lenses_only = prepared.lenses.size() == prepared.maps.size() && prepared.others.empty();
   SliceRequest request;
   request.box = prepared.box;
   request.view = prepared.view;

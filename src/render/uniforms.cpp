@@ -1,9 +1,9 @@
 #include "render/uniforms.h"
 
 #include "render/grid_textures.h"
+#include "render/several_volumes.h"
 #include "render/stack_geometry.h"
 #include "render/tiled_draw.h"
-#include "render/warp_glsl.h"
 #include "scene/names.h"
 
 #include <cctype>
@@ -80,6 +80,8 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("ATTENUATION");
   if (is_warped(prepared) && !prepared.data_clip.empty())
     macros.emplace_back("DATA_PLANES");
+  for (std::string& macro : volume_macros(prepared))
+    macros.push_back(std::move(macro));
   macros.push_back("MAX_CLIP_PLANES " +
                    std::to_string(1 + prepared.data_clip.size() + prepared.object_clip.size()));
   switch (correction_of(prepared)) {
@@ -102,9 +104,10 @@ std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes) {
   return vectors;
 }
 
-void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared) {
+void set_warp_uniforms(const gl::Functions& gl, const gl::Uniforms& program, const PreparedScene& prepared,
+                       const TextureUnits& units) {
   if (prepared.scene.render.pipeline != Pipeline::axis)
-    set_warp_maps(gl, program, drawn_maps(prepared), prepared.space);
+    set_warp_maps(gl, program, drawn_maps(prepared), prepared.space, units.grids);
   const std::vector<glm::vec4> planes = plane_vectors(prepared.data_clip);
   set_uniform(gl, program, "data_plane_count", static_cast<int>(planes.size()));
   if (!planes.empty())
@@ -120,12 +123,12 @@ void set_axis_tables(const gl::Functions& gl, const gl::Program& program, const 
   }
 }
 
-void set_shading_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
-                          const GradientTexture& gradients) {
+void set_shading_uniforms(const gl::Functions& gl, const gl::Uniforms& program, const PreparedScene& prepared,
+                          const GradientTexture& gradients, GLenum unit) {
   if (gradients.texture) {
-    gl.ActiveTexture(GL_TEXTURE0 + gradient_unit);
+    gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(GL_TEXTURE_3D, gradients.texture.name());
-    set_uniform(gl, program, "gradient_texture", static_cast<int>(gradient_unit));
+    set_uniform(gl, program, "gradient_texture", static_cast<int>(unit));
   }
   set_uniform(gl, program, "voxel", gradients.voxel);
   set_uniform(gl, program, "gradient_scale", gradients.scale);
@@ -143,30 +146,37 @@ void set_shading_uniforms(const gl::Functions& gl, const gl::Program& program, c
   set_uniform(gl, program, "two_sided", light.two_sided ? 1 : 0);
 }
 
+void set_volume_uniforms(const gl::Functions& gl, const gl::Uniforms& program, const PreparedScene& prepared,
+                         const GpuScene& scene, const TextureUnits& units) {
+  set_warp_uniforms(gl, program, prepared, units);
+  bind_grids(gl, scene.grids, units.grids);
+  gl.ActiveTexture(GL_TEXTURE0 + units.volume);
+  gl.BindTexture(GL_TEXTURE_3D, scene.volume.name());
+  gl.ActiveTexture(GL_TEXTURE0 + units.transfer);
+  gl.BindTexture(GL_TEXTURE_1D, scene.transfer.name());
+  set_uniform(gl, program, "volume_texture", static_cast<int>(units.volume));
+  set_uniform(gl, program, "transfer_texture", static_cast<int>(units.transfer));
+  set_uniform(gl, program, "value_from_texel", scene.value_from_texel);
+  set_uniform(gl, program, "transfer_from_value", scene.transfer_from_value);
+  set_uniform(gl, program, "transfer_from_texel", scene.transfer_from_texel);
+  set_shading_uniforms(gl, program, prepared, scene.gradients, units.gradient);
+}
+
 void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
                          const GpuScene& scene) {
-  if (is_warped(prepared))
-    set_warp_uniforms(gl, program, prepared);
-  bind_grids(gl, scene.grids);
+  if (prepared.others.empty())
+    set_volume_uniforms(gl, program, prepared, scene);
+  else
+    set_volumes(gl, program, prepared, scene);
   if (has_highlight(prepared.effects) || has_attenuation(prepared.effects))
     set_struct(gl, program, "effects", prepared.effects);
   if (scene.axis[0])
     set_axis_tables(gl, program, scene.axis);
-  gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_3D, scene.volume.name());
-  gl.ActiveTexture(GL_TEXTURE1);
-  gl.BindTexture(GL_TEXTURE_1D, scene.transfer.name());
-  set_uniform(gl, program, "volume_texture", 0);
   if (!scene.bricks.empty()) {
     set_uniform(gl, program, "log_zoom", static_cast<float>(prepared.log_zoom));
     set_level_samplers(gl, program, scene);
     bind_tile(gl, program, scene, 0);
   }
-  set_uniform(gl, program, "transfer_texture", 1);
-  set_uniform(gl, program, "value_from_texel", scene.value_from_texel);
-  set_uniform(gl, program, "transfer_from_value", scene.transfer_from_value);
-  set_uniform(gl, program, "transfer_from_texel", scene.transfer_from_texel);
-  set_shading_uniforms(gl, program, prepared, scene.gradients);
   set_uniform(gl, program, "to_eye_axis", glm::vec3(-prepared.view.forward));
   set_uniform(gl, program, "distance_ratio",
               static_cast<float>(prepared.scene.render.opacity_correction == OpacityCorrection::none

@@ -3,6 +3,7 @@
 
 #include "gl/program.h"
 #include "render/gpu_scene.h"
+#include "render/warp_glsl.h"
 
 #include <string>
 #include <vector>
@@ -12,20 +13,31 @@ namespace slicelens {
 /// Macros for sampling, mode and shading, as shaders/ names them.
 std::vector<std::string> common_macros(const PreparedScene& prepared);
 
+/// Where one volume's textures are bound.
+struct TextureUnits {
+  GLenum volume = 0;
+  GLenum transfer = 1;
+  GLenum gradient = 10; ///< the second texture that some gradients need
+  std::vector<GLenum> grids = grid_units;
+};
+
 /// Sets what shaders/gpu/warp.glsl declares. The program must be in use.
-void set_warp_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared);
+void set_warp_uniforms(const gl::Functions& gl, const gl::Uniforms& program, const PreparedScene& prepared,
+                       const TextureUnits& units = {});
+
+/// Binds the textures of one volume and sets what shaders/gpu/{volume,classify,warp,gradient,light}.glsl
+/// declare.
+void set_volume_uniforms(const gl::Functions& gl, const gl::Uniforms& program, const PreparedScene& prepared,
+                         const GpuScene& scene, const TextureUnits& units = {});
 
 /// Texture unit of the first of Cohen's tables: behind the volume, the transfer function, the maxima of MIP
 /// and the levels of a pyramid.
 inline constexpr GLenum axis_unit = 12;
 
-/// Texture unit of the second texture that some gradients need.
-inline constexpr GLenum gradient_unit = 10;
-
 /// Planes as GLSL takes them: (normal, −offset).
 std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes);
 
-/// Binds both textures (units 0 and 1) and sets what shaders/gpu/*.glsl declares. The program must be in use.
+/// Binds the textures of all volumes and sets what shaders/gpu/*.glsl declares. The program must be in use.
 void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
                          const GpuScene& scene);
 

@@ -15,6 +15,8 @@ std::string gathering_function(const std::vector<WarpMap>& maps, const std::stri
                                const std::string& name, const std::string& function,
                                const std::string& joined_by) {
   std::string text = type + " chain_" + name + "(vec3 b) {\n";
+  if (maps.empty())
+    return text + "  return " + type + "(1.0);\n}\n";
   for (std::size_t i = maps.size(); i-- > 0;) {
     const std::string prefix = glsl_of(maps[i]).prefix;
     const std::string own = prefix + function + "(" + uniform_name(i) + ", b)";
@@ -36,35 +38,43 @@ std::string point_function(const std::vector<WarpMap>& maps) {
 } // namespace
 
 EmbeddedFile warp_chain(const std::vector<WarpMap>& maps) {
-  if (maps.empty())
-    return {"generated/warps.glsl", ""};
+  return {"generated/warps.glsl", maps.empty() ? "" : warp_includes(maps) + warp_chain_functions(maps)};
+}
+
+std::string warp_includes(const std::vector<WarpMap>& maps) {
   std::string text;
   std::set<std::string> included;
-  for (std::size_t i = 0; i < maps.size(); ++i) {
-    const WarpGlsl glsl = glsl_of(maps[i]);
+  for (const WarpMap& map : maps) {
+    const WarpGlsl glsl = glsl_of(map);
     for (const std::string& file : {glsl.library, glsl.file}) {
       if (!file.empty() && included.insert(file).second)
         text += "#include \"" + file + "\"\n";
     }
-    text += "uniform " + glsl.type + " " + uniform_name(i) + ";\n";
   }
+  return text;
+}
+
+std::string warp_chain_functions(const std::vector<WarpMap>& maps) {
+  std::string text;
+  for (std::size_t i = 0; i < maps.size(); ++i)
+    text += "uniform " + glsl_of(maps[i]).type + " " + uniform_name(i) + ";\n";
   text += point_function(maps);
   text += gathering_function(maps, "mat3", "jacobian", "_jacobian", " * ");
   const bool lenses = std::all_of(maps.begin(), maps.end(),
                                   [](const WarpMap& map) { return std::holds_alternative<LamarMap>(map); });
-  if (lenses)
+  if (lenses && !maps.empty())
     text += gathering_function(maps, "float", "magnification", "_magnification", " * ");
-  return {"generated/warps.glsl", text};
+  return text;
 }
 
-void set_warp_maps(const gl::Functions& gl, const gl::Program& program, const std::vector<WarpMap>& maps,
-                   const BoxSpace& space) {
+void set_warp_maps(const gl::Functions& gl, const gl::Uniforms& program, const std::vector<WarpMap>& maps,
+                   const BoxSpace& space, const std::vector<GLenum>& units) {
   set_uniform(gl, program, "box_size", glm::vec3(space.size));
-  int unit = grid_unit;
+  std::size_t grid = 0;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     std::visit([&](const auto& map) { set_struct(gl, program, uniform_name(i), map); }, maps[i]);
     if (std::holds_alternative<GridMap>(maps[i]))
-      set_uniform(gl, program, (uniform_name(i) + ".grid").c_str(), unit++);
+      set_uniform(gl, program, (uniform_name(i) + ".grid").c_str(), static_cast<int>(units.at(grid++)));
   }
 }
 

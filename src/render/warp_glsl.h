@@ -5,6 +5,7 @@
 #include "gl/program.h"
 #include "warp/warp.h"
 
+#include <string>
 #include <vector>
 
 namespace slicelens {
@@ -13,20 +14,25 @@ namespace slicelens {
 /// chain_jacobian in box space, u = u_1 ∘ … ∘ u_n, and chain_magnification where all warps are LaMar's lens.
 EmbeddedFile warp_chain(const std::vector<WarpMap>& maps);
 
-/// Texture unit of the first grid of displacements among the maps (render/grid_textures.h); the next ones
-/// follow. Those of Cohen's tables, which are never read beside a grid.
-inline constexpr int grid_unit = 12;
+/// Its parts: the files that declare the maps, each once, and the uniforms and functions, where an empty list
+/// is the identity.
+std::string warp_includes(const std::vector<WarpMap>& maps);
+std::string warp_chain_functions(const std::vector<WarpMap>& maps);
+
 /// Grids that a list of warps may hold: units of every driver.
 inline constexpr std::size_t max_grids = 4;
 
-/// Sets the uniforms that warp_chain declares, and `box_size`. The program must be in use. Grids are read
-/// from the units grid_unit and up, in the list's order.
-void set_warp_maps(const gl::Functions& gl, const gl::Program& program, const std::vector<WarpMap>& maps,
-                   const BoxSpace& space);
+/// Texture units of the grids of displacements among the maps (render/grid_textures.h), in their order: those
+/// of Cohen's tables, which are never read beside a grid.
+inline const std::vector<GLenum> grid_units = {12, 13, 14, 15};
+
+/// Sets the uniforms that warp_chain declares, and `box_size`. The program must be in use.
+void set_warp_maps(const gl::Functions& gl, const gl::Uniforms& program, const std::vector<WarpMap>& maps,
+                   const BoxSpace& space, const std::vector<GLenum>& units = grid_units);
 
 /// Sets the fields of the uniform struct `name`.
 template <class Map>
-void set_struct(const gl::Functions& gl, const gl::Program& program, const std::string& name,
+void set_struct(const gl::Functions& gl, const gl::Uniforms& program, const std::string& name,
                 const Map& map) {
   visit_fields(map, [&](const char* field, const auto& value) {
     using Value = std::remove_cvref_t<decltype(value)>;

@@ -92,8 +92,14 @@ void apply(Json& scene, const KeyValue& change) {
   if (!node->is_object() && !node->is_null())
     throw UsageError("--set " + change.key + ": set the whole list or value instead");
   const Json value = value_of(change.value);
-  if (parts.size() == 2 && !value.is_null())
-    remove_alternatives(*node, parts[0], parts[1]);
+  if (!value.is_null()) {
+    if (parts.size() == 2)
+      remove_alternatives(*node, parts[0], parts[1]);
+    else if (parts.size() == 3 && parts[0] == "volumes") // volumes[1].file
+      remove_alternatives(*node, "volume", parts[2]);
+    else if (parts.size() == 4 && parts[0] == "volumes") // volumes[1].transfer.preset
+      remove_alternatives(*node, parts[2], parts[3]);
+  }
   (*node)[parts.back()] = value;
 }
 

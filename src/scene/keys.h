@@ -41,6 +41,26 @@ void transfer_keys(Visitor& visit, Settings& s) {
 }
 
 template <class Visitor, class Settings>
+void placement_keys(Visitor& visit, Settings& s) {
+  visit.key("align", s.align,
+            "world (where its file puts it) or center (its centre on the first volume's), before the rest");
+  visit.key("translate", s.translate, "[x, y, z] in world units");
+  visit.key("rotate", s.rotate,
+            "degrees about the world's x, then y, then z axis, through the volume's centre");
+  visit.per_axis("scale", s.scale,
+                 "along the volume's own axes, about its centre; one number or one for each axis",
+                 Range::positive);
+}
+
+template <class Visitor, class Settings>
+void layer_keys(Visitor& visit, Settings& s) {
+  volume_keys(visit, s.volume);
+  visit.section("transfer", s.transfer, "its own", [](auto& v, auto& x) { transfer_keys(v, x); });
+  visit.warps("warp", s.warp);
+  visit.section("placement", s.placement, "where it lies", [](auto& v, auto& x) { placement_keys(v, x); });
+}
+
+template <class Visitor, class Settings>
 void camera_keys(Visitor& visit, Settings& s) {
   visit.key("file", s.file, "camera of ParaView (.pvcc); excludes all other keys but zoom");
   visit.key("azimuth", s.azimuth, "degrees about view up, as VTK's Azimuth");
@@ -216,6 +236,15 @@ void scene_keys(Visitor& visit, Settings& s) {
   visit.list("planes", s.planes, "cutting planes that show the displayed volume, opaque",
              [](auto& v, auto& x) { plane_keys(v, x); });
   visit.list("clip", s.clip, "clipping planes", [](auto& v, auto& x) { clip_keys(v, x); });
+  visit.volumes(
+      "volumes", s,
+      "instead of volume, transfer and warp: a list of up to 4 volumes, each with the keys of volume "
+      "and a transfer, a warp and a placement of its own",
+      [](auto& v, auto& x) { layer_keys(v, x); });
+  visit.key(
+      "combine", s.combine,
+      "how the samples of several volumes become one: mix (side by side in the same place), sum (of the "
+      "opacities), max (the most opaque one) or difference (of the first and the others)");
 }
 
 } // namespace slicelens

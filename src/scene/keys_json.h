@@ -280,6 +280,35 @@ public:
     }
   }
 
+  /// A list of volumes in place of the sections of a single one.
+  template <class Keys>
+  void volumes(const char* name, Scene& scene, const char*, Keys keys) {
+    const Json* value = take(name);
+    if (value == nullptr)
+      return;
+    for (const char* single : {"volume", "transfer", "warp"}) {
+      if (take(single) != nullptr)
+        throw UsageError(full(name) + " and " + single + " are both given; an entry of " + full(name) +
+                         " has its own, so keep one form");
+    }
+    if (!value->is_array() || value->empty() || value->size() > max_volumes)
+      refuse(full(name), *value, "give a list of 1 to " + std::to_string(max_volumes) + " volumes");
+    for (std::size_t i = 0; i < value->size(); ++i) {
+      VolumeLayer layer;
+      read_object((*value)[i], full(name) + "[" + std::to_string(i) + "]", layer, keys);
+      if (!layer.volume.file && !layer.volume.phantom)
+        layer.volume.phantom = "head";
+      if (i > 0) {
+        scene.others.push_back(std::move(layer));
+        continue;
+      }
+      scene.volume = std::move(layer.volume);
+      scene.transfer = std::move(layer.transfer);
+      scene.warp = std::move(layer.warp);
+      scene.placement = layer.placement;
+    }
+  }
+
   void finish() const {
     for (const auto& [name, value] : object_.items()) {
       if (known_.count(name) != 0)
@@ -370,6 +399,18 @@ struct Writer {
     }
     object[name] = entries.size() == 1 ? entries[0] : entries;
   }
+  /// The sections of a single volume have been written before.
+  template <class Keys>
+  void volumes(const char* name, const Scene& scene, const char* help, Keys keys) {
+    if (scene.others.empty() && scene.placement == Placement{})
+      return;
+    std::vector<VolumeLayer> layers = {{scene.volume, scene.transfer, scene.warp, scene.placement}};
+    layers.insert(layers.end(), scene.others.begin(), scene.others.end());
+    for (const char* single : {"volume", "transfer", "warp"})
+      object.erase(single);
+    list(name, layers, help, keys);
+  }
+
   template <class T, class Keys>
   void list(const char* name, const std::vector<T>& field, const char*, Keys keys) {
     Json entries = Json::array();
@@ -419,6 +460,15 @@ struct Lister {
       warp_keys(lister, warp);
     }
   }
+  /// Those that a single volume does not have.
+  template <class Keys>
+  void volumes(const char* name, const Scene&, const char* help, Keys) {
+    keys.emplace_back(std::string(name) + "[]", help);
+    Lister lister{keys, std::string(name) + "[].placement."};
+    const Placement placement;
+    placement_keys(lister, placement);
+  }
+
   template <class T, class Keys>
   void list(const char* name, const std::vector<T>&, const char*, Keys visit_keys) {
     Lister lister{keys, prefix + name + "[]."};

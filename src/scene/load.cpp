@@ -71,10 +71,10 @@ glm::dvec2 table_range(const Volume& volume, std::size_t rows) {
                                  : glm::dvec2(volume.min - 1, volume.min);
 }
 
-namespace {
-
-void load_transfer(TransferSettings& settings, const Volume& volume, const std::vector<fs::path>& folders,
-                   const Progress& progress) {
+void load_transfer_file(TransferSettings& settings, const Volume& volume,
+                        const std::vector<fs::path>& folders, const Progress& progress) {
+  if (!settings.file)
+    return;
   const fs::path path = resolve_file(*settings.file, folders, "transfer.file");
   const TransferFile file = read_transfer_file(path, settings.map.value_or(""));
   auto range = settings.range;
@@ -101,12 +101,7 @@ void load_transfer(TransferSettings& settings, const Volume& volume, const std::
   settings.range.reset();
 }
 
-} // namespace
-
-void load_transfer_and_camera(Scene& scene, const Volume& volume, const std::vector<fs::path>& folders,
-                              const Progress& progress) {
-  if (scene.transfer.file)
-    load_transfer(scene.transfer, volume, folders, progress);
+void load_camera_file(Scene& scene, const std::vector<fs::path>& folders, const Progress& progress) {
   if (!scene.camera.file)
     return;
   const std::string name = *scene.camera.file;
@@ -139,6 +134,24 @@ TransferFunction transfer_of(const Scene& scene, const Volume& volume) {
     transfer.unit_distance = settings.unit_distance;
   validate(transfer);
   return transfer;
+}
+
+LoadedVolume load_volume_of(const Scene& scene, std::size_t index, const std::vector<fs::path>& folders,
+                            const Progress& progress) {
+  Scene one = scene_of_volume(scene, index);
+  LoadedVolume loaded;
+  loaded.volume = load_volume(one.volume, folders, progress);
+  load_transfer_file(one.transfer, loaded.volume, folders, progress);
+  loaded.transfer = transfer_of(one, loaded.volume);
+  return loaded;
+}
+
+std::vector<LoadedVolume> load_others(const Scene& scene, const std::vector<fs::path>& folders,
+                                      const Progress& progress) {
+  std::vector<LoadedVolume> others;
+  for (std::size_t i = 1; i < volume_count(scene); ++i)
+    others.push_back(load_volume_of(scene, i, folders, progress));
+  return others;
 }
 
 } // namespace slicelens

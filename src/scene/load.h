@@ -25,19 +25,37 @@ VolumeSource source_of(const VolumeSettings& settings, const std::vector<std::fi
 Volume load_volume(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders,
                    const Progress& progress);
 
-/// Puts what transfer.file (as points) and camera.file (as position, focal point …) hold in their place, so
-/// that the scene stands alone. Tables without transfer.range are stretched over the data's range, those of
-/// 256 rows for uint8 data over [0, 255]. Warns, one line for each file, of what was resampled, assumed or
-/// left out, and when the data lie wholly outside of the points.
-void load_transfer_and_camera(Scene& scene, const Volume& volume,
-                              const std::vector<std::filesystem::path>& folders, const Progress& progress);
+/// Puts the points that a transfer.file holds in its place, so that the scene stands alone; nothing to do
+/// without one. Tables without transfer.range are stretched over the data's range, those of 256 rows for
+/// uint8 data over [0, 255]. Warns in one line of what was resampled, assumed or left out, and when the data
+/// lie wholly outside of the points.
+void load_transfer_file(TransferSettings& transfer, const Volume& volume,
+                        const std::vector<std::filesystem::path>& folders, const Progress& progress);
+
+/// The same for camera.file: position, focal point and so on take its place.
+void load_camera_file(Scene& scene, const std::vector<std::filesystem::path>& folders,
+                      const Progress& progress);
 
 /// The values of the first and the last row of a table for this volume.
 glm::dvec2 table_range(const Volume& volume, std::size_t rows);
 
+/// A volume and its transfer function.
+struct LoadedVolume {
+  Volume volume;
+  TransferFunction transfer;
+};
+
+/// load_volume and transfer_of for volume `index` of the scene.
+LoadedVolume load_volume_of(const Scene& scene, std::size_t index,
+                            const std::vector<std::filesystem::path>& folders, const Progress& progress);
+
+/// The same for the volumes after the first.
+std::vector<LoadedVolume> load_others(const Scene& scene, const std::vector<std::filesystem::path>& folders,
+                                      const Progress& progress);
+
 /// The transfer function of the scene: its points, its preset, or without either the automatic one for this
-/// volume (the phantom's own preset for phantoms). A file must have been loaded before; else
-/// UsageError.
+/// volume (the phantom's own preset for phantoms). Throws UsageError for a transfer.file that has not been
+/// loaded.
 TransferFunction transfer_of(const Scene& scene, const Volume& volume);
 
 } // namespace slicelens

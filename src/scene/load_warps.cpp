@@ -72,8 +72,10 @@ DisplacementField read_field(const fs::path& path, FieldVectors vectors, const P
   return field;
 }
 
-void load_warp_files(Scene& scene, const std::vector<fs::path>& folders, const Progress& progress) {
-  for (Warp& warp : scene.warp) {
+namespace {
+
+void load_list(std::vector<Warp>& warps, const std::vector<fs::path>& folders, const Progress& progress) {
+  for (Warp& warp : warps) {
     if (auto* landmarks = std::get_if<Landmarks>(&warp)) {
       load_files(*landmarks, folders);
     } else if (auto* field = std::get_if<Field>(&warp)) {
@@ -81,6 +83,14 @@ void load_warp_files(Scene& scene, const std::vector<fs::path>& folders, const P
           read_field(resolve_file(field->file, folders, "warp.file"), field->vectors, progress));
     }
   }
+}
+
+} // namespace
+
+void load_warp_files(Scene& scene, const std::vector<fs::path>& folders, const Progress& progress) {
+  load_list(scene.warp, folders, progress);
+  for (VolumeLayer& layer : scene.others)
+    load_list(layer.warp, folders, progress);
 }
 
 } // namespace slicelens

@@ -2,6 +2,20 @@
 
 namespace slicelens {
 
+const std::vector<EnumName<Alignment>>& names_of(Alignment) {
+  static const std::vector<EnumName<Alignment>> names = {{Alignment::world, "world"},
+                                                         {Alignment::center, "center"}};
+  return names;
+}
+
+const std::vector<EnumName<Combine>>& names_of(Combine) {
+  static const std::vector<EnumName<Combine>> names = {{Combine::mix, "mix"},
+                                                       {Combine::sum, "sum"},
+                                                       {Combine::max, "max"},
+                                                       {Combine::difference, "difference"}};
+  return names;
+}
+
 const std::vector<EnumName<ProjectionName>>& names_of(ProjectionName) {
   static const std::vector<EnumName<ProjectionName>> names = {{ProjectionName::orthographic, "orthographic"},
                                                               {ProjectionName::perspective, "perspective"}};

@@ -315,7 +315,55 @@ void validate_gradients(const Scene& scene) {
   }
 }
 
+/// What several volumes on one stack of slices can do.
+void validate_several(const Scene& scene) {
+  const RenderSettings& render = scene.render;
+  const auto refuse = [](const std::string& problem) { throw UsageError("several volumes " + problem); };
+  const std::string pipeline = word(render.pipeline);
+  if (render.pipeline == Pipeline::tessellated || render.pipeline == Pipeline::axis ||
+      render.pipeline == Pipeline::fixed_function) {
+    refuse("share one stack of slices, which cannot follow the map of each: pipeline '" + pipeline +
+           "' draws one volume; set render.pipeline to slices, fragment, grid, rays or reference");
+  }
+  if (render.classification == Classification::pre)
+    refuse("are combined after classification; set render.classification to post");
+  if (render.tiles != std::array<std::size_t, 3>{1, 1, 1} || render.levels != 1)
+    refuse("are held in one texture each; set render.tiles to [1,1,1] and render.levels to 1");
+  if (!scene.planes.empty())
+    refuse("have no one value for a cutting plane to show; remove planes, or show one volume");
+  if (scene.overlay.stack != 0)
+    refuse("have no overlay.stack; set it to 0");
+  if (has_effects(scene) && render.mode == Mode::mip)
+    refuse("under mode 'mip' have a winner each, which highlight and attenuation cannot follow; set "
+           "render.mode to dvr or xray");
+}
+
+void validate_placement(const Placement& placement) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(placement.scale[axis] >= 1e-6 && placement.scale[axis] <= 1e6))
+      throw UsageError("placement.scale must be from 1e-6 to 1e6, not " + number_text(placement.scale[axis]));
+    if (!(std::abs(placement.rotate[axis]) <= 1e6))
+      throw UsageError("placement.rotate must be within a million degrees");
+  }
+}
+
 } // namespace
+
+Scene scene_of_volume(const Scene& scene, std::size_t index) {
+  Scene one = scene;
+  one.others.clear();
+  one.combine = Combine::mix;
+  if (index == 0)
+    return one;
+  const VolumeLayer& layer = scene.others[index - 1];
+  one.volume = layer.volume;
+  one.transfer = layer.transfer;
+  one.warp = layer.warp;
+  one.placement = layer.placement;
+  one.highlight = {};
+  one.attenuation = {};
+  return one;
+}
 
 GradientSpace gradient_space_of(const Scene& scene) {
   if (scene.warp.empty() || scene.render.gradient == Gradient::precomputed)
@@ -335,6 +383,12 @@ bool has_effects(const Scene& scene) {
 }
 
 Pipeline default_pipeline(const Scene& scene) {
+  if (!scene.others.empty()) {
+    const bool plain = scene.warp.empty() && !has_effects(scene) &&
+                       std::all_of(scene.others.begin(), scene.others.end(),
+                                   [](const VolumeLayer& layer) { return layer.warp.empty(); });
+    return plain ? Pipeline::slices : Pipeline::fragment;
+  }
   if (scene.warp.empty())
     return has_effects(scene) ? Pipeline::axis : Pipeline::slices;
   const std::string& own = info_of(scene.warp[0]).pipelines[0];
@@ -368,6 +422,20 @@ void validate(const OverlaySettings& overlay) {
 }
 
 void validate(const Scene& scene) {
+  if (!scene.others.empty()) {
+    if (volume_count(scene) > max_volumes)
+      throw UsageError("volumes: at most " + std::to_string(max_volumes) + " can be shown at once");
+    validate_several(scene);
+    for (std::size_t i = 0; i < volume_count(scene); ++i) {
+      try {
+        validate(scene_of_volume(scene, i));
+      } catch (const UsageError& error) {
+        throw UsageError("volumes[" + std::to_string(i) + "]: " + error.what());
+      }
+    }
+    return;
+  }
+  validate_placement(scene.placement);
   validate_volume(scene.volume);
   validate_transfer(scene.transfer);
   if (scene.camera.file)

@@ -159,6 +159,34 @@ struct PickSettings {
   std::optional<double> gradient; ///< data units per world unit; none: a tenth of the range over h
 };
 
+/// What a volume's own coordinates in its file count from.
+enum class Alignment { world, center };
+
+/// Section `placement` of an entry of `volumes`: where a volume lies beside the first one.
+struct Placement {
+  Alignment align = Alignment::world; ///< as the file says, or its centre on the first volume's
+  glm::dvec3 translate{0};            ///< world units
+  glm::dvec3 rotate{0}; ///< degrees about the world's x, then y, then z axis, through the volume's centre
+  glm::dvec3 scale{1};  ///< along the volume's own axes, about its centre
+
+  bool operator==(const Placement&) const = default;
+};
+
+/// How the samples of several volumes become one (Brunet, Nowak and Gleicher 2006 §4.3; docs/pipeline.md).
+enum class Combine { mix, sum, max, difference };
+
+/// Most entries of `volumes`.
+inline constexpr std::size_t max_volumes = 4;
+
+/// One entry of `volumes`.
+struct VolumeLayer {
+  VolumeSettings volume;
+  TransferSettings transfer;
+  std::vector<Warp> warp; ///< in forward order
+  Placement placement;
+};
+
+/// With several volumes, `volume`, `transfer`, `warp` and `placement` are those of the first one.
 struct Scene {
   std::string title;
   VolumeSettings volume;
@@ -173,7 +201,17 @@ struct Scene {
   PickSettings pick;
   std::vector<PlaneSettings> planes; ///< not cut by `clip`
   OverlaySettings overlay;
+  Placement placement;
+  std::vector<VolumeLayer> others; ///< the volumes after the first
+  Combine combine = Combine::mix;
 };
+
+/// How many volumes the scene shows: 1 to max_volumes.
+inline std::size_t volume_count(const Scene& scene) { return 1 + scene.others.size(); }
+
+/// Volume `index` as a scene of its own, seen and sampled as the whole; without highlight and attenuation,
+/// which belong to the first one.
+Scene scene_of_volume(const Scene& scene, std::size_t index);
 
 /// Most entries of `planes`.
 inline constexpr std::size_t max_planes_shown = 16;

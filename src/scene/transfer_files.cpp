@@ -230,8 +230,8 @@ std::string write_transfer_file(const fs::path& path, const TransferToWrite& wha
   }
   std::vector<std::string> lost;
   std::string text;
-  const bool display =
-      what.display && says_something(*what.display) && *format != TransferFormat::slicer_text && *format != TransferFormat::slicer_json;
+  const bool display = what.display && says_something(*what.display) &&
+                       *format != TransferFormat::slicer_text && *format != TransferFormat::slicer_json;
   switch (*format) {
   case TransferFormat::paraview_json:
     text = paraview_json_text(what);

@@ -92,8 +92,8 @@ double inner_radius(double length, double angle, double radius) {
 
 const std::vector<Polyp>& polyps() {
   static const std::vector<Polyp> list = {{.055, 2.0, 7, 0}, {.16, 4.6, 5, 0},   {.27, 1.2, 6.5, 9},
-                                          {.37, 5.6, 4, 0},  {.46, 3.0, 8, 0},   {.58, 0.5, 5, 8},
-                                          {.69, 4.1, 6, 0},  {.79, 2.4, 4.5, 0}, {.91, 5.2, 7.5, 10}};
+                                          {.37, 5.6, 4, 0},  {.46, 3.0, 8, 0},   {.58, 0.5, 5, 6},
+                                          {.69, 4.1, 6, 0},  {.79, 2.4, 4.5, 0}, {.91, 5.2, 7, 6}};
   return list;
 }
 

@@ -43,9 +43,9 @@ constexpr double kSkinThickness = 1.3;
 // What closed forms need: centres and semi-axes of the ellipsoids on the left side.
 constexpr glm::dvec3 kEyeCenter{12.5, -36, 9.5};
 constexpr double kEyeRadius = 5.4;
-constexpr glm::dvec3 kLensCenter{14.5, -38.5, 11.2};
+constexpr glm::dvec3 kLensCenter{14, -37.8, 10.6};
 constexpr double kLensRadius = 2.1;
-constexpr glm::dvec3 kKidneyCenter{5.5, 20, 2};
+constexpr glm::dvec3 kKidneyCenter{5.5, 20, 0.5};
 constexpr glm::dvec3 kKidneyRadii{2.8, 9, 2.4};
 constexpr glm::dvec3 kSpleenCenter{2, 11.5, -3};
 constexpr double kSpleenRadius = 2.6;

@@ -186,8 +186,8 @@ double surface(const dvec3& p) {
   if (p.y < -20) {
     d = cut(d, capsule(m, {0, -60, -4.6}, {19, -46, -4.6}, 0.7), 0.5); // mouth
     d = cut(d, capsule(m, {19, -46, -4.6}, {25, -24, -4.2}, 0.7), 0.5);
-    d = cut(d, sphere(m, {4.5, -55, 0.6}, 1), 0.6);                    // nostril
-    d = cut(d, sphere(m, kEyeCenter + dvec3(8, -6.5, 3.5), 5.5), 1.2); // flat where the pupil is
+    d = cut(d, sphere(m, {4.5, -55, 0.6}, 1), 0.6);                  // nostril
+    d = cut(d, sphere(m, kEyeCenter + dvec3(9, -7.3, 4), 5.5), 1.2); // flat where the pupil is
   }
   d = blend(d, meet(sphere(m, {20.5, -22, 1}, 4), std::abs(m.x - 20) - 3, 1), 1.5); // eardrum
   d = blend(d, hind_leg(m, false), 3);

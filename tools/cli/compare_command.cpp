@@ -42,20 +42,13 @@ public:
   Side render_side(const std::string& input, const std::vector<std::string>& set, bool verbose) {
     const SceneInput scene = scene_input(input, set);
     const Progress progress = console_progress();
-    Scene volume_only;
-    volume_only.volume = scene.scene.volume;
-    const std::string key = fs::path(input).parent_path().string() + "\n" + scene_to_json(volume_only, -1);
-    if (prepared_ && key == key_) {
-      Volume volume = std::move(prepared_->volume);
-      Scene loaded = scene.scene;
-      load_transfer_and_camera(loaded, volume, scene.folders, progress);
-      TransferFunction transfer = transfer_of(loaded, volume);
-      load_warp_files(loaded, scene.folders, progress);
-      prepared_ = prepare(std::move(loaded), std::move(volume), std::move(transfer));
+    const std::string folder = fs::path(input).parent_path().string();
+    if (prepared_ && folder == folder_) {
+      load_again(*prepared_, scene, progress);
     } else {
       prepared_.reset();
       prepared_ = load(scene, progress);
-      key_ = key;
+      folder_ = folder;
     }
     RenderResult result = render_with(context_, *prepared_, progress);
     end_progress();
@@ -68,7 +61,7 @@ public:
 private:
   OpenContext context_;
   std::optional<PreparedScene> prepared_;
-  std::string key_;
+  std::string folder_; ///< that its files are named from
 };
 
 std::vector<std::string> joined(const std::vector<std::string>& a, const std::vector<std::string>& b) {

@@ -188,9 +188,10 @@ private:
       compare(entry, word(slicing) + " against rays", slices.image, rays.image, background);
     }
     if (tables)
-      plot_tables(entry, scene.input, progress);
-    entry.data = std::to_string(volume_.dims[0]) + "×" + std::to_string(volume_.dims[1]) + "×" +
-                 std::to_string(volume_.dims[2]) + " " + name_of(volume_.type) + ", " + volume_.format;
+      plot_tables(entry, scene.input.scene, progress);
+    entry.data = std::to_string(prepared_->volume.dims[0]) + "×" + std::to_string(prepared_->volume.dims[1]) +
+                 "×" + std::to_string(prepared_->volume.dims[2]) + " " + name_of(prepared_->volume.type) +
+                 ", " + prepared_->volume.format;
     if (scene.argument == scene.name + ".json")
       write_text_atomically(folder_ / scene.argument, entry.scene_json + "\n");
     return entry;
@@ -239,18 +240,14 @@ private:
   }
 
   /// The tables as curves and texels, as PNG on the page and as SVG beside it, where there is a gnuplot.
-  void plot_tables(GalleryEntry& entry, const SceneInput& input, const Progress& progress) {
+  void plot_tables(GalleryEntry& entry, const Scene& scene, const Progress& progress) {
     if (!plots_)
       return;
     const auto separable = [](const Warp& warp) { return is_separable(warp); };
-    Scene scene = input.scene;
     if (!std::all_of(scene.warp.begin(), scene.warp.end(), separable))
       return;
     try {
-      load_transfer_and_camera(scene, volume_, input.folders, {});
-      PreparedScene prepared = prepare(scene, std::move(volume_), transfer_of(scene, volume_));
-      const PlotPage page = axis_tables_page(entry.title, prepared);
-      volume_ = std::move(prepared.volume);
+      const PlotPage page = axis_tables_page(entry.title, *prepared_);
       const std::string name = entry.name + "_tables";
       write_text_atomically(folder_ / (name + ".svg"), draw_plot(page, PlotFormat::svg));
       write_text_atomically(folder_ / (name + ".png"), draw_plot(page, PlotFormat::png));
@@ -276,27 +273,29 @@ private:
   }
 
   RenderResult draw(const SceneInput& input, Pipeline pipeline, const Progress& progress) {
-    Scene volume_only;
-    volume_only.volume = input.scene.volume;
-    const std::string key = scene_to_json(volume_only, -1);
-    if (key != volume_key_) {
-      volume_ = load_volume(input.scene.volume, input.folders, progress);
-      volume_key_ = key;
-      if (input.scene.volume.file)
-        sha256_ = sha256_of(files_of(source_of(input.scene.volume, input.folders)));
-    }
-    Scene scene = input.scene;
-    scene.render.pipeline = pipeline;
+    SceneInput drawn = input;
+    drawn.scene.render.pipeline = pipeline;
     if (pipeline == Pipeline::rays)
-      scene.render.order = Order::back_to_front; // the key is for slices
-    load_warp_files(scene, input.folders, progress);
-    load_transfer_and_camera(scene, volume_, input.folders, progress);
-    TransferFunction transfer = transfer_of(scene, volume_);
-    PreparedScene prepared = prepare(scene, std::move(volume_), std::move(transfer));
-    RenderResult result = render_with(context_, prepared, progress);
-    volume_ = std::move(prepared.volume);
-    add_metadata(result, prepared.scene, input.scene.volume.file ? sha256_ : "");
+      drawn.scene.render.order = Order::back_to_front; // the key is for slices
+    if (prepared_ && folders_ == input.folders && volumes_of(prepared_->scene) == volumes_of(input.scene)) {
+      load_again(*prepared_, drawn, progress);
+    } else {
+      prepared_.reset();
+      prepared_ = load(drawn, progress, &sha256_);
+      folders_ = input.folders;
+    }
+    RenderResult result = render_with(context_, *prepared_, progress);
+    add_metadata(result, prepared_->scene, sha256_);
     return result;
+  }
+
+  /// What decides which data are read.
+  static std::string volumes_of(const Scene& scene) {
+    Scene alone;
+    alone.volume = scene.volume;
+    for (const VolumeLayer& layer : scene.others)
+      alone.others.push_back({layer.volume, {}, {}, {}});
+    return scene_to_json(alone, -1);
   }
 
   std::string save(const Image& image, const std::string& name) {
@@ -307,8 +306,8 @@ private:
   bool plots_ = true;
   fs::path folder_;
   OpenContext context_;
-  Volume volume_;
-  std::string volume_key_;
+  std::optional<PreparedScene> prepared_; ///< the last scene, whose volumes neighbouring scenes often share
+  std::vector<fs::path> folders_;         ///< that its files are named from
   std::string sha256_;
   std::string driver_;
 };

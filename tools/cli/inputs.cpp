@@ -28,8 +28,9 @@ std::vector<KeyValue> assignments(const std::vector<std::string>& set) {
 /// A path given on the command line counts from the current folder, one in a file from that file's folder;
 /// the other place is tried second.
 std::vector<fs::path> folders_for(const fs::path& home, const std::vector<KeyValue>& changes) {
-  const bool from_command =
-      std::any_of(changes.begin(), changes.end(), [](const KeyValue& c) { return c.key == "volume.file"; });
+  const bool from_command = std::any_of(changes.begin(), changes.end(), [](const KeyValue& c) {
+    return c.key == "volume.file" || (c.key.rfind("volumes", 0) == 0 && c.key.ends_with(".file"));
+  });
   if (home.empty() || home == ".")
     return {"."};
   if (from_command)
@@ -40,6 +41,10 @@ std::vector<fs::path> folders_for(const fs::path& home, const std::vector<KeyVal
 void require_hash(const SceneInput& input, const std::string& sha256) {
   if (input.expected_sha256.empty() || sha256.empty() || input.expected_sha256 == sha256)
     return;
+  if (!input.scene.others.empty())
+    throw FileError(input.source, "one of its volumes is not the one that it was rendered from (SHA-256 " +
+                                      sha256 + ", then " + input.expected_sha256 +
+                                      "); name the right one with --set volumes[0].file=…");
   throw FileError(*input.scene.volume.file, "is not the volume that " + input.source +
                                                 " was rendered from (SHA-256 " + sha256.substr(0, 12) +
                                                 "…, then " + input.expected_sha256.substr(0, 12) +
@@ -115,9 +120,21 @@ SceneInput scene_input(const std::string& input, const std::vector<std::string>&
 }
 
 std::future<std::string> start_hash(const SceneInput& input) {
-  if (!input.scene.volume.file)
+  std::vector<std::vector<fs::path>> volumes; // the files of each
+  bool any = false;
+  for (std::size_t i = 0; i < volume_count(input.scene); ++i) {
+    const VolumeSettings settings = scene_of_volume(input.scene, i).volume;
+    volumes.push_back(settings.file ? files_of(source_of(settings, input.folders)) : std::vector<fs::path>{});
+    any = any || settings.file;
+  }
+  if (!any)
     return {};
-  return std::async(std::launch::async, sha256_of, files_of(source_of(input.scene.volume, input.folders)));
+  return std::async(std::launch::async, [volumes] {
+    std::string hashes;
+    for (const std::vector<fs::path>& files : volumes)
+      hashes += (hashes.empty() ? "" : " ") + (files.empty() ? std::string("-") : sha256_of(files));
+    return hashes;
+  });
 }
 
 PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256,
@@ -130,10 +147,22 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
   if (sha256 != nullptr)
     *sha256 = hash;
   Scene scene = input.scene;
-  load_transfer_and_camera(scene, volume, input.folders, progress);
+  load_camera_file(scene, input.folders, progress);
+  load_transfer_file(scene.transfer, volume, input.folders, progress);
   TransferFunction transfer = transfer_of(scene, volume);
   load_warp_files(scene, input.folders, progress);
-  return prepare(std::move(scene), std::move(volume), std::move(transfer));
+  std::vector<LoadedVolume> others = load_others(scene, input.folders, progress);
+  for (std::size_t i = 0; i < others.size(); ++i) // what load_others has read, and said what was to be said
+    load_transfer_file(scene.others[i].transfer, others[i].volume, input.folders, {});
+  return prepare(std::move(scene), std::move(volume), std::move(transfer), std::move(others));
+}
+
+std::size_t checked_volume(const Scene& scene, int index) {
+  if (index < 0 || static_cast<std::size_t>(index) >= volume_count(scene)) {
+    throw UsageError("--volume " + std::to_string(index) + ": the scene has " +
+                     std::to_string(volume_count(scene)) + " volume(s), counted from 0");
+  }
+  return static_cast<std::size_t>(index);
 }
 
 void load_again(PreparedScene& prepared, const SceneInput& input, const Progress& progress) {
@@ -143,16 +172,30 @@ void load_again(PreparedScene& prepared, const SceneInput& input, const Progress
     return scene_to_json(alone, -1);
   };
   Scene scene = input.scene;
-  if (text_of(prepared.scene.volume, &Scene::volume) != text_of(scene.volume, &Scene::volume)) {
-    prepared.pyramid.clear();
-    prepared.volume = load_volume(scene.volume, input.folders, progress);
+  bool same_warps = volume_count(prepared.scene) == volume_count(scene);
+  const std::size_t had = prepared.others.size();
+  prepared.others.resize(scene.others.size());
+  for (std::size_t i = 0; i < volume_count(scene); ++i) {
+    Scene now = scene_of_volume(scene, i);
+    PreparedScene& one = i == 0 ? prepared : prepared.others[i - 1];
+    const bool known = i <= had;
+    const Scene before = known ? scene_of_volume(one.scene, 0) : Scene{};
+    if (!known || text_of(before.volume, &Scene::volume) != text_of(now.volume, &Scene::volume))
+      set_volume(one, load_volume(now.volume, input.folders, progress));
+    TransferSettings& transfer = i == 0 ? scene.transfer : scene.others[i - 1].transfer;
+    load_transfer_file(transfer, one.volume, input.folders, progress);
+    now.transfer = transfer;
+    one.transfer = transfer_of(now, one.volume);
+    same_warps = same_warps && text_of(before.warp, &Scene::warp) == text_of(now.warp, &Scene::warp);
   }
-  if (text_of(prepared.scene.warp, &Scene::warp) == text_of(scene.warp, &Scene::warp))
-    scene.warp = std::move(prepared.scene.warp); // with what its files hold
-  else
+  if (same_warps) { // with what their files hold
+    scene.warp = std::move(prepared.scene.warp);
+    for (std::size_t i = 0; i < scene.others.size(); ++i)
+      scene.others[i].warp = std::move(prepared.scene.others[i].warp);
+  } else {
     load_warp_files(scene, input.folders, progress);
-  load_transfer_and_camera(scene, prepared.volume, input.folders, progress);
-  prepared.transfer = transfer_of(scene, prepared.volume);
+  }
+  load_camera_file(scene, input.folders, progress);
   prepared.scene = std::move(scene);
   prepare_again(prepared);
 }

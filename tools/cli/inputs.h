@@ -47,8 +47,9 @@ SceneText scene_text(const std::string& input, const std::vector<std::string>& s
 SceneInput scene_text_input(const std::string& text, const std::string& source,
                             const std::vector<std::string>& set);
 
-/// Starts the SHA-256 of the volume's files on a thread of its own; an empty future for phantoms. Throws
-/// FileError where there are no such files.
+/// Starts the SHA-256 of the volume's files on a thread of its own; of several volumes one after the other,
+/// separated by spaces, "-" for phantoms; an empty future where there are only phantoms. Throws FileError
+/// where there are no such files.
 std::future<std::string> start_hash(const SceneInput& input);
 
 /// Reads or makes the volume and works everything out. `sha256` receives the hash of the volume's files
@@ -57,7 +58,10 @@ std::future<std::string> start_hash(const SceneInput& input);
 PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256 = nullptr,
                    std::future<std::string> hashing = {});
 
-/// Works out another scene with the same volume, which is read again only where the section `volume` differs.
+/// `--volume`: which one of the scene's volumes. Throws UsageError where it has fewer.
+std::size_t checked_volume(const Scene& scene, int index);
+
+/// Works out another scene with the same volumes, each read again only where its section `volume` differs.
 void load_again(PreparedScene& prepared, const SceneInput& input, const Progress& progress);
 
 /// A context that is kept for the next scene that asks for the same kind and profile.

@@ -249,6 +249,9 @@ void add_warp(CLI::App& app, WarpOptions& options, std::function<void()>& run) {
   command.add_option("-o,--output", options.output, "volume to write, .nrrd, .nhdr, .mha or .mhd")
       ->required()
       ->type_name("FILE");
+  command.add_option("--volume", options.volume, "of several volumes, which one is baked, from 0")
+      ->check(CLI::Range(0, 3))
+      ->type_name("I");
   add_set(command, options.set);
   command
       .add_option("--size", options.size,
@@ -285,6 +288,9 @@ void add_pick(CLI::App& app, PickOptions& options, std::function<void()>& run) {
   command.add_option("--samples", options.samples, "on the line (default: four for each slice distance)")
       ->check(CLI::Range(2, 16384))
       ->type_name("N");
+  command.add_option("--volume", options.volume, "of several volumes, which one is looked at, from 0")
+      ->check(CLI::Range(0, 3))
+      ->type_name("I");
   command.add_option("--profile", options.profile, "write all samples as CSV")->type_name("FILE");
   add_set(command, options.set);
   command.callback([&options, &run] { run = [&options] { run_pick(options); }; });
@@ -317,6 +323,9 @@ void add_slice(CLI::App& app, SliceOptions& options, std::function<void()>& run)
       ->delimiter(',')
       ->expected(2)
       ->type_name("B,W");
+  command.add_option("--volume", options.volume, "of several volumes, which one is cut, from 0")
+      ->check(CLI::Range(0, 3))
+      ->type_name("I");
   add_set(command, options.set);
   command
       .add_option("--depth", options.depth,

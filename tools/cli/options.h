@@ -75,6 +75,7 @@ struct AnimateOptions {
 
 struct WarpOptions {
   std::string input;
+  int volume = 0;     ///< of several, which one is baked
   std::string output; ///< .nrrd, .nhdr, .mha or .mhd
   std::vector<std::string> set;
   std::vector<std::size_t> size; ///< voxels; empty: the volume's own
@@ -94,12 +95,14 @@ struct PickOptions {
   std::string input;
   std::vector<double> at;     ///< x, y in pixels
   std::optional<int> samples; ///< none: as many as the slices deserve
+  int volume = 0;             ///< of several, which one is looked at
   std::string profile;        ///< CSV file; empty: none
   std::vector<std::string> set;
 };
 
 struct SliceOptions {
   std::string input;
+  int volume = 0; ///< of several, which one is cut
   std::string output;
   std::vector<double> point;  ///< texture coordinates of the displayed volume
   std::vector<double> normal; ///< world

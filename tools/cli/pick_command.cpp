@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace slicelens::cli {
@@ -69,6 +70,11 @@ void use_probe_settings(RenderSettings& render, bool warped) {
   render.levels = 1;
 }
 
+bool is_warped_scene(const Scene& scene) {
+  return !scene.warp.empty() || std::any_of(scene.others.begin(), scene.others.end(),
+                                            [](const VolumeLayer& layer) { return !layer.warp.empty(); });
+}
+
 } // namespace
 
 void run_pick(const PickOptions& options) {
@@ -81,12 +87,16 @@ void run_pick(const PickOptions& options) {
                      std::to_string(size[0]) + " x " + std::to_string(size[1]) +
                      " pixels; (0,0) is its top left corner");
   }
-  use_probe_settings(input.scene.render, !input.scene.warp.empty());
-  const PreparedScene prepared = load(input, console_progress());
+  const std::size_t index = checked_volume(input.scene, options.volume);
+  use_probe_settings(input.scene.render, is_warped_scene(input.scene));
+  PreparedScene all = load(input, console_progress());
+  const PreparedScene prepared = one_volume(std::move(all), index);
   end_progress();
   const std::optional<ProbeLine> line = probe_line(prepared, x, y);
   Json json = Json::object();
   json["at"] = {x, y};
+  if (volume_count(input.scene) > 1)
+    json["volume"] = index;
   std::vector<ProbeSample> samples;
   double ratio = 0;
   if (line) {

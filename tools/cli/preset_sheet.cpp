@@ -12,10 +12,12 @@ namespace slicelens::cli {
 std::string preset_scene(const PresetInfo& preset) {
   const bool xray = preset.name.find("X-ray") != std::string::npos;
   const bool mip = preset.name.find("MIP") != std::string::npos;
-  const std::string mode = xray ? R"("mode": "xray")" : mip ? R"("mode": "mip")" : R"("shading": "diffuse")";
+  const std::string mode = xray  ? R"("mode": "xray", "xray_scale": 0.3)"
+                           : mip ? R"("mode": "mip")"
+                                 : R"("shading": "diffuse")";
   return R"({ "volume": { "phantom": ")" + std::string(preset.relative ? "head-mr" : "head") +
          R"(", "size": [128, 128, 128] }, "transfer": { "preset": ")" + preset.name +
-         R"(" }, "camera": { "azimuth": 30, "elevation": 10, "zoom": 1.5 }, "render": { "size": [160, 160], )" +
+         R"(" }, "camera": { "azimuth": 30, "elevation": 10, "zoom": 1.5 }, "render": { "size": [160, 160], "spacing": 0.5, )" +
          mode + " } }";
 }
 

@@ -40,12 +40,16 @@ PlaneSettings plane_of(const SliceOptions& options) {
 void run_slice(const SliceOptions& options) {
   const PixelDepth depth = pixel_depth(options.output, options.depth); // refuse a wrong name before the work
   SceneInput input = scene_input(options.input, options.set);
-  input.scene.planes = {plane_of(options)};
+  const std::size_t index = checked_volume(input.scene, options.volume);
   input.scene.render.mode = Mode::dvr;
   input.scene.overlay = {};
-  validate(input.scene);
+  Scene alone = scene_of_volume(input.scene, index);
+  alone.planes = {plane_of(options)};
+  validate(alone);
   std::string sha256;
-  PreparedScene prepared = load(input, console_progress(), &sha256);
+  PreparedScene all = load(input, console_progress(), &sha256);
+  PreparedScene prepared = one_volume(std::move(all), index);
+  prepared.scene.planes = alone.planes;
   const auto& size = prepared.scene.render.size;
   prepared.scene.camera = camera_of_plane(prepared, prepared.scene.planes[0],
                                           static_cast<double>(size[0]) / static_cast<double>(size[1]));

@@ -84,7 +84,7 @@ Source from_scene(const TransferOptions& options, const Progress& progress) {
   const SceneInput input = scene_input(options.input, options.set);
   const Volume volume = load_volume(input.scene.volume, input.folders, progress);
   Scene scene = input.scene;
-  load_transfer_and_camera(scene, volume, input.folders, progress);
+  load_transfer_file(scene.transfer, volume, input.folders, progress);
   Source source{{transfer_of(scene, volume), slicer_display(scene)}};
   const glm::dvec3& spacing = volume.spacing;
   if (transfer_format_of(options.output) == TransferFormat::slicer_json &&
@@ -153,8 +153,7 @@ void run_camera(const CameraOptions& options) {
   const Progress progress = console_progress();
   const Volume volume = load_volume(input.scene.volume, input.folders, progress);
   Scene scene = input.scene;
-  scene.transfer = {}; // of no concern here
-  load_transfer_and_camera(scene, volume, input.folders, progress);
+  load_camera_file(scene, input.folders, progress);
   const CameraSettings camera = explicit_camera(scene.camera, box_of(volume));
   end_progress();
   if (options.output.empty()) {

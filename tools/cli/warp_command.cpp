@@ -11,8 +11,10 @@ namespace slicelens::cli {
 
 void run_warp(const WarpOptions& options) {
   const SceneInput input = scene_input(options.input, options.set);
+  const std::size_t index = checked_volume(input.scene, options.volume);
   const Progress progress = console_progress();
-  const PreparedScene prepared = load(input, progress);
+  PreparedScene all = load(input, progress);
+  const PreparedScene prepared = one_volume(std::move(all), index);
   BakeOptions bake_options;
   if (!options.size.empty())
     bake_options.size = {options.size.at(0), options.size.at(1), options.size.at(2)};
