@@ -13,6 +13,7 @@
 #include "gpu/classified.glsl"
 #include "generated/warps.glsl"
 #include "gpu/warp.glsl"
+#include "gpu/footprint.glsl"
 #include "gpu/gradient.glsl"
 #include "gpu/light.glsl"
 #endif
@@ -62,11 +63,14 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #ifdef WARPED
   vec3 t = texture_from_object(p);
   if (!in_volume(t) || !in_data_planes(t)) return gathered;
-#if defined(LEVELS) && LEVELS > 1
+#if defined(LEVELS) && LEVELS > 1 && !defined(FOOTPRINT)
   choose_level(magnification(p));
 #endif
 #else
   vec3 t = p;
+#endif
+#ifdef FOOTPRINT
+  choose_footprint_level(p);
 #endif
 #if defined(CLASSIFICATION_PRE)
   vec4 ready = classified_sample(t);

@@ -21,6 +21,7 @@
 #include "generated/warps.glsl"
 #include "gpu/warp.glsl"
 #include "gpu/axis_tables.glsl"
+#include "gpu/footprint.glsl"
 #include "gpu/gradient.glsl"
 #include "gpu/light.glsl"
 #endif
@@ -113,7 +114,9 @@ void main() {
   result = sample_color;
 #else
 #if defined(LEVELS) && LEVELS > 1
-#if defined(WARP_TESSELLATED)
+#if defined(FOOTPRINT)
+  choose_footprint_level(object_coordinate);
+#elif defined(WARP_TESSELLATED)
   choose_level(homogeneous_coordinate.w);
 #elif defined(WARP_FRAGMENT)
   choose_level(magnification(object_coordinate));

@@ -38,7 +38,7 @@ vec3 axis_texture_from_object(AxisTexels t, vec3 p) { return p + axis_mask(t) * 
 // Attenuation and highlight: the products of the three axes' values.
 vec2 axis_effects(AxisTexels t) { return t.x.ba * t.y.ba * t.z.ba; }
 
-#ifdef GRADIENTS
+#if defined(GRADIENTS) || defined(FOOTPRINT)
 // Derivatives of offset and mask by the coordinate, as differences over one texel.
 vec2 axis_slope(sampler1D table, float x) {
   float count = float(textureSize(table, 0));
@@ -46,18 +46,21 @@ vec2 axis_slope(sampler1D table, float x) {
   return (axis_texel(table, x + half_texel).rg - axis_texel(table, x - half_texel).rg) * count;
 }
 
-// The gradient of the displayed volume v∘u from that of the data: Jᵀ∇v, both by texture coordinates.
-vec3 displayed_gradient(vec3 gradient, vec3 p) {
+// The Jacobian of the map that the tables hold, by texture coordinates.
+mat3 axis_jacobian(vec3 p) {
   AxisTexels t = fetch_axis_tables(p);
   vec2 x = axis_slope(axis_table_x, p.x);
   vec2 y = axis_slope(axis_table_y, p.y);
   vec2 z = axis_slope(axis_table_z, p.z);
-  vec3 result = gradient * (1.0 + axis_mask(t) * vec3(x.r, y.r, z.r));
+  vec3 diagonal = 1.0 + axis_mask(t) * vec3(x.r, y.r, z.r);
+  mat3 result = mat3(diagonal.x, 0.0, 0.0, 0.0, diagonal.y, 0.0, 0.0, 0.0, diagonal.z);
 #ifdef AXIS_WEIGHTS
-  vec3 mask_slope = vec3(x.g * t.y.g * t.z.g, t.x.g * y.g * t.z.g, t.x.g * t.y.g * z.g);
-  result += mask_slope * dot(gradient, axis_offset(t));
+  result += outerProduct(axis_offset(t), vec3(x.g * t.y.g * t.z.g, t.x.g * y.g * t.z.g, t.x.g * t.y.g * z.g));
 #endif
   return result;
 }
+
+// The gradient of the displayed volume v∘u from that of the data: Jᵀ∇v, both by texture coordinates.
+vec3 displayed_gradient(vec3 gradient, vec3 p) { return gradient * axis_jacobian(p); }
 #endif
 #endif

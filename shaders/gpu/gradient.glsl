@@ -32,7 +32,9 @@ float gradient_value(vec3 p) { return tap(texture_from_object(p)); }
 #include "lib/gradient.glsl"
 
 vec3 gradient_at(vec3 t, vec3 p) {
-#if defined(LEVELS) && LEVELS > 1
+#if defined(FOOTPRINT)
+  vec3 h = voxel * exp2(step_level(p));
+#elif defined(LEVELS) && LEVELS > 1
   vec3 h = level_step(voxel);
 #else
   vec3 h = voxel;

@@ -5,7 +5,7 @@
 
 vec3 grid_node(GridRef grid, ivec3 i) { return texelFetch(grid, i, 0).xyz; }
 
-vec3 sample_grid(GridRef grid, vec3 x) {
+vec3 sample_grid(GridRef grid, vec3 x, vec3 texel) {
 #ifdef FILTER_LINEAR_EXACT
   ivec3 last = textureSize(grid, 0) - 1;
   ivec3 i = min(ivec3(x), last - 1);
@@ -17,6 +17,6 @@ vec3 sample_grid(GridRef grid, vec3 x) {
   return mix(low, high, f.z);
 #else
   // Nodes are texel centres. There are no mip levels; saying so spares a software rasteriser the choice of one.
-  return textureLod(grid, (x + 0.5) / vec3(textureSize(grid, 0)), 0.0).xyz;
+  return textureLod(grid, (x + 0.5) * texel, 0.0).xyz;
 #endif
 }

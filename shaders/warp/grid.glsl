@@ -2,7 +2,7 @@
 // displacement u − p there, in box space; between nodes it is trilinear, beyond the grid's box it is that of the nearest
 // point of its faces, so the map is continuous everywhere.
 //
-// The host gives GridRef, sample_grid(grid, x) = the displacement at x ∈ [0, cells], counted in nodes, and grid_node(grid, i).
+// The host gives GridRef, sample_grid(grid, x, texel) = the displacement at x ∈ [0, cells], counted in nodes, and grid_node(grid, i).
 //
 // Worked by hand, low = 0, high = 1, 2 nodes on each axis, displacement 0 at x = 0 and (0.1, 0, 0) at x = 1: at (0.5, 0.2,
 // 0.7) u = (0.55, 0.2, 0.7) and the Jacobian has 1.1 in its corner; at (2, 0.5, 0.5), outside, u = (2.1, 0.5, 0.5) and the
@@ -12,16 +12,18 @@ struct GridMap {
   vec3 low;    // box space: where the first node is
   vec3 high;   // where the last node is
   vec3 cells;  // nodes − 1 on each axis
+  vec3 scale;  // cells / (high − low): made by the host, since a division for each fragment is dear
+  vec3 texel;  // 1/nodes on each axis
   GridRef grid;
 };
 
 // Where p is, counted in nodes, taken into the grid's box.
 vec3 grid_position(GridMap map, vec3 p) {
-  return clamp((p - map.low) / (map.high - map.low), real(0), real(1)) * map.cells;
+  return clamp((p - map.low) * map.scale, vec3(real(0)), map.cells);
 }
 
 // The inverse map: the point of the data shown at p, box space.
-vec3 grid_texture_from_object(GridMap map, vec3 p) { return p + sample_grid(map.grid, grid_position(map, p)); }
+vec3 grid_texture_from_object(GridMap map, vec3 p) { return p + sample_grid(map.grid, grid_position(map, p), map.texel); }
 
 // Linear between the values at 0 and 1.
 vec3 grid_mix(vec3 a, vec3 b, real t) { return a + t * (b - a); }
@@ -43,7 +45,7 @@ mat3 grid_jacobian(GridMap map, vec3 p) {
   vec3 by_y = grid_mix(grid_mix(v010 - v000, v110 - v100, f.x), grid_mix(v011 - v001, v111 - v101, f.x), f.z);
   vec3 by_z = grid_mix(grid_mix(v001 - v000, v101 - v100, f.x), grid_mix(v011 - v010, v111 - v110, f.x), f.y);
   // Nodes in one unit of box space, and none of it where the point was taken back to a face.
-  vec3 scale = map.cells / (map.high - map.low) *
+  vec3 scale = map.scale *
                vec3(lessThanEqual(abs(p - real(0.5) * (map.low + map.high)), real(0.5) * (map.high - map.low)));
   return mat3(vec3(real(1), real(0), real(0)) + scale.x * by_x, vec3(real(0), real(1), real(0)) + scale.y * by_y,
               vec3(real(0), real(0), real(1)) + scale.z * by_z);

@@ -28,8 +28,8 @@ void check_fits(const PreparedScene& prepared) {
     }
   }
   const std::size_t longest = std::max({dims[0], dims[1], dims[2]});
-  if (render.levels > 1 && (longest >> (render.levels - 1)) == 0) {
-    throw UsageError("render.levels " + std::to_string(render.levels) + " is more than the volume's " +
+  if (prepared.levels > 1 && (longest >> (prepared.levels - 1)) == 0) {
+    throw UsageError("render.levels " + std::to_string(prepared.levels) + " is more than the volume's " +
                      triple(dims) + " voxels have; its coarsest level would hold less than one voxel");
   }
 }
@@ -45,7 +45,7 @@ Brick brick_of(const PreparedScene& prepared, const Part& part, std::size_t leve
   const auto dims = level_dims(prepared.volume.dims, level);
   const double edge = std::ldexp(1, static_cast<int>(level)); // voxels of level 0 in one of this level
   // Steps of the gradient follow the level blended to, at most the next coarser one: two voxels of this.
-  const double step = render.shading == Shading::none ? 0 : level + 1 < render.levels ? 2 : 1;
+  const double step = render.shading == Shading::none ? 0 : level + 1 < prepared.levels ? 2 : 1;
   const double filter = render.filter == Filter::cubic ? 1 : 0; // beyond the voxels of linear interpolation
   const double below = (render.gradient == Gradient::central ? step : 0) + filter;
   const double above = step + filter;
@@ -70,9 +70,8 @@ Part seen_at(const PreparedScene& prepared, const Part& tile, std::size_t level)
   const auto& dims = prepared.volume.dims;
   const glm::dvec3 n(dims[0], dims[1], dims[2]);
   LevelFunction function;
-  const double q =
-      function.magnification_of(static_cast<double>(level) + 1,
-                                static_cast<double>(prepared.scene.render.levels - 1), prepared.log_zoom);
+  const double q = function.magnification_of(static_cast<double>(level) + 1,
+                                             static_cast<double>(prepared.levels - 1), prepared.log_zoom);
   Part seen{glm::dvec3(1e300), glm::dvec3(-1e300)};
   for (const LensTessellation& lens : prepared.lenses) {
     const auto box = magnified_data(lens, prepared.space, std::max(1.0, q));
@@ -100,15 +99,16 @@ std::vector<double> boundaries(std::size_t voxels, std::size_t tiles) {
 
 } // namespace
 
-bool is_bricked(const RenderSettings& render) {
-  return render.levels > 1 || render.tiles[0] > 1 || render.tiles[1] > 1 || render.tiles[2] > 1;
+bool is_bricked(const PreparedScene& prepared) {
+  const RenderSettings& render = prepared.scene.render;
+  return prepared.levels > 1 || render.tiles[0] > 1 || render.tiles[1] > 1 || render.tiles[2] > 1;
 }
 
 BrickPlan plan_bricks(const PreparedScene& prepared) {
   check_fits(prepared);
   const RenderSettings& render = prepared.scene.render;
   BrickPlan plan;
-  plan.levels = render.levels;
+  plan.levels = prepared.levels;
   std::array<std::vector<double>, 3> at;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     at[axis] = boundaries(prepared.volume.dims[axis], render.tiles[axis]);
@@ -119,10 +119,11 @@ BrickPlan plan_bricks(const PreparedScene& prepared) {
     for (std::size_t y = 0; y < render.tiles[1]; ++y) {
       for (std::size_t x = 0; x < render.tiles[0]; ++x) {
         const Part tile{{at[0][x], at[1][y], at[2][z]}, {at[0][x + 1], at[1][y + 1], at[2][z + 1]}};
-        plan.bricks.push_back(brick_of(prepared, tile, render.levels - 1));
-        std::vector<std::size_t> of_level(render.levels, plan.bricks.size() - 1);
-        for (std::size_t level = 0; level + 1 < render.levels; ++level) {
-          const Part seen = seen_at(prepared, tile, level);
+        plan.bricks.push_back(brick_of(prepared, tile, prepared.levels - 1));
+        std::vector<std::size_t> of_level(prepared.levels, plan.bricks.size() - 1);
+        for (std::size_t level = 0; level + 1 < prepared.levels; ++level) {
+          const bool anywhere = render.footprint == Footprint::mip; // fragments and rays look at any level
+          const Part seen = anywhere ? tile : seen_at(prepared, tile, level);
           if (seen.low.x > seen.high.x)
             continue;
           of_level[level] = plan.bricks.size();

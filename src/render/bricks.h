@@ -11,7 +11,7 @@
 namespace slicelens {
 
 /// Whether the volume is held otherwise than in one texture of its full resolution.
-bool is_bricked(const RenderSettings& render);
+bool is_bricked(const PreparedScene& prepared);
 
 /// The voxels [first, first + size) of one level (volume/pyramid.h) as a texture.
 struct Brick {

@@ -132,7 +132,7 @@ template <class Texel>
 void upload_all(const gl::Functions& gl, const PreparedScene& prepared, GLenum format, const Coding& coding,
                 GpuScene& scene, const Progress& progress) {
   const RenderSettings& render = prepared.scene.render;
-  if (!is_bricked(render)) {
+  if (!is_bricked(prepared)) {
     scene.volume = upload_volume<Texel>(gl, prepared.volume, render.filter, format, coding, progress);
     return;
   }
@@ -181,14 +181,14 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
     coding = coding_of<std::uint8_t>(volume);
     levels = 255;
     texel_bytes = 1;
-    if (prepared.scene.render.levels > 1)
+    if (prepared.levels > 1)
       coding = finer<std::uint8_t>(coding, volume);
     upload_all<std::uint8_t>(gl, prepared, GL_R8, coding, scene, progress);
   } else if (scene.format == VolumeTexture::r16) {
     coding = coding_of<std::uint16_t>(volume);
     levels = 65535;
     texel_bytes = 2;
-    if (prepared.scene.render.levels > 1)
+    if (prepared.levels > 1)
       coding = finer<std::uint16_t>(coding, volume);
     upload_all<std::uint16_t>(gl, prepared, GL_R16, coding, scene, progress);
   } else {
@@ -204,8 +204,8 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
   const std::size_t transfer_bytes =
       scene.transfer_texels * (prepared.scene.render.transfer_texture == TransferTexture::rgba8 ? 4 : 16);
   scene.whole_bytes = voxel_count(volume) * texel_bytes + transfer_bytes;
-  scene.bytes = is_bricked(prepared.scene.render) ? brick_voxels(scene.plan) * texel_bytes + transfer_bytes
-                                                  : scene.whole_bytes;
+  scene.bytes =
+      is_bricked(prepared) ? brick_voxels(scene.plan) * texel_bytes + transfer_bytes : scene.whole_bytes;
   scene.bytes += scene.gradients.bytes;
   scene.bytes += grid_bytes(maps);
   for (const PreparedScene& other : prepared.others) {

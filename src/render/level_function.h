@@ -10,6 +10,8 @@ namespace slicelens {
 namespace level_names {
 using namespace glm;
 using real = double;
+using vec3 = glm::dvec3;
+using mat3 = glm::dmat3;
 struct LevelFunction {
 #include "lib/levels.glsl"
 };

@@ -1,4 +1,4 @@
-// render.levels in the reference: values of a pyramid, in double.
+// render.levels and render.footprint in the reference: values of a pyramid, in double.
 #pragma once
 
 #include "render/bricks.h"
@@ -11,11 +11,20 @@ namespace slicelens {
 
 /// The level at which the point p of the displayed volume (texture coordinates) is read.
 inline double level_at(const PreparedScene& prepared, const glm::dvec3& p) {
+  if (prepared.scene.render.footprint == Footprint::mip)
+    return footprint_level(prepared, p);
   const glm::dvec3 b = box_from_texture(prepared.space, p);
   double q = 1; // lenses do not overlap, so at most one factor differs from 1
   for (const LensTessellation& lens : prepared.lenses)
     q *= magnification(lens.map, b);
   return level_of(q, static_cast<double>(prepared.pyramid.size()), prepared.log_zoom);
+}
+
+/// Length of a gradient's steps around p, in voxels of level 0: one of the sample's level, or on display one
+/// of the volume's, but no shorter than a step of the picture.
+inline double gradient_step(const PreparedScene& prepared, double level, const glm::dvec3& p) {
+  const bool on_display = prepared.gradient_space == GradientSpace::object && !prepared.pyramid.empty();
+  return std::exp2(on_display ? displayed_level(prepared, p) : level);
 }
 
 /// The value of level k ≥ 1 at texture coordinate p, by the scene's filter: the level's voxel centres are at

@@ -166,7 +166,7 @@ void prepare_effects(PreparedScene& prepared) {
 
 /// The levels above the first. They depend on the data alone, so those there are stay.
 void prepare_pyramid(PreparedScene& prepared) {
-  const std::size_t count = prepared.scene.render.levels - 1;
+  const std::size_t count = prepared.levels - 1;
   prepared.pyramid.resize(std::min(prepared.pyramid.size(), count));
   while (prepared.pyramid.size() < count)
     prepared.pyramid.push_back(
@@ -236,7 +236,10 @@ void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
   prepared.gradient_space = gradient_space_of(scene);
   prepare_warps(prepared);
   prepare_effects(prepared);
-  if (is_bricked(scene.render))
+  prepared.steps = sample_steps(prepared);
+  prepared.levels =
+      scene.render.footprint == Footprint::mip ? footprint_level_count(prepared) : scene.render.levels;
+  if (is_bricked(prepared))
     (void)plan_bricks(prepared); // refuses tiles and levels that the volume has no voxels for
   prepare_pyramid(prepared);
 }

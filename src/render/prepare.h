@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/view.h"
+#include "render/footprint.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "slicing/polygon.h"
@@ -54,7 +55,9 @@ struct PreparedScene {
   std::optional<GridMap> map_grid;                    ///< pipeline `grid` only: all of `maps` in one
   GradientSpace gradient_space = GradientSpace::data; ///< where the differences of shading are taken
   double log_zoom = 0;         ///< ln of their largest zoom, for render.levels; 0 without a lens
-  std::vector<Volume> pyramid; ///< levels 1, 2 … of render.levels (volume/pyramid.h)
+  SampleSteps steps;           ///< from sample to sample, for render.footprint
+  std::size_t levels = 1;      ///< of the pyramid: render.levels, or what render.footprint needs of them
+  std::vector<Volume> pyramid; ///< levels 1, 2 … (volume/pyramid.h)
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};

@@ -62,7 +62,7 @@ struct Tracer : SharedFunctions {
   vec3 voxel;
   dmat3 world_from_gradient;
   Filter filter;
-  real level = 0; ///< that the sample reads, with render.levels
+  real level = 0; ///< that the sample reads, with render.levels or render.footprint
   Correction correction;
   real ratio;
   std::vector<CutPlane> planes;
@@ -144,10 +144,10 @@ struct Tracer : SharedFunctions {
     vec3 gradient;
     switch (prepared.scene.render.gradient) {
     case Gradient::forward:
-      gradient = forward_gradient(at, voxel * std::exp2(level));
+      gradient = forward_gradient(at, voxel * gradient_step(prepared, level, p));
       break;
     case Gradient::central:
-      gradient = central_gradient(at, voxel * std::exp2(level));
+      gradient = central_gradient(at, voxel * gradient_step(prepared, level, p));
       break;
     case Gradient::prefiltered:
       gradient = central_gradient(at, 1.0 / vec3(smooth->dims));

@@ -32,7 +32,7 @@ struct RenderResult {
   std::size_t texture_bytes = 0; ///< of all textures, the transfer function's included
   std::size_t whole_texture_bytes =
       0;                           ///< what they would be with the volume in one texture at full resolution
-  std::size_t volume_textures = 0; ///< that hold the volume: 1 without render.tiles and render.levels
+  std::size_t volume_textures = 0; ///< that hold the volume: 1 without render.tiles, levels, footprint
   std::size_t draw_calls = 0;      ///< of the slices
   std::size_t slices = 0;          ///< drawn, 0 for rays and reference
   std::size_t triangles = 0;       ///< of all slices

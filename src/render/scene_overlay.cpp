@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace slicelens {
@@ -171,6 +172,34 @@ void draw_box(Image& image, const PreparedScene& prepared, const View& view) {
   draw_lines(image, edges, prepared.scene.overlay.line_width, glm::vec3(0.6F));
 }
 
+/// Circles around what the scene's landmarks name: sources in the undeformed data, targets where they are
+/// shown (Brunet, Nowak and Gleicher 2006, Figure 1). Targets lie over sources.
+void draw_landmarks(Image& image, const PreparedScene& prepared) {
+  constexpr int sides = 48;
+  const OverlaySettings& overlay = prepared.scene.overlay;
+  std::array<std::vector<PixelLine>, 2> circles;
+  for (const Warp& warp : prepared.scene.warp) {
+    const auto* landmarks = std::get_if<Landmarks>(&warp);
+    if (landmarks == nullptr)
+      continue;
+    for (const LandmarkPair& pair : landmarks_in_box(*landmarks, prepared.space)) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        const glm::dvec3 world =
+            world_from_texture(prepared.box, texture_from_box(prepared.space, pair[end]));
+        const glm::dvec2 middle = pixel_from_world(prepared.view, world);
+        PixelLine circle;
+        for (int i = 0; i <= sides; ++i) {
+          const double angle = 2 * std::numbers::pi * i / sides;
+          circle.push_back(middle + overlay.landmarks * glm::dvec2(std::cos(angle), std::sin(angle)));
+        }
+        circles[end].push_back(std::move(circle));
+      }
+    }
+  }
+  draw_lines(image, circles[0], overlay.line_width, inner_color);
+  draw_lines(image, circles[1], overlay.line_width, wireframe_color);
+}
+
 } // namespace
 
 void draw_overlays(Image& image, const PreparedScene& prepared) {
@@ -205,6 +234,8 @@ void draw_overlays(Image& image, const PreparedScene& prepared) {
     draw(lens_box_outlines(prepared), outer_color);
     draw(focus_outlines(prepared), inner_color);
   }
+  if (overlay.landmarks > 0)
+    draw_landmarks(image, prepared);
   if (bar)
     image = with_magnification_bar(image, *bar);
 }

@@ -18,8 +18,8 @@ const std::vector<std::string>& own_names() {
       // gpu/classify.glsl
       "transfer_texture", "transfer_from_value", "transfer_from_texel", "classify", "classify_texel",
       // the chain of warps, gpu/warp.glsl
-      "chain_texture_from_object", "chain_jacobian", "box_size", "texture_from_object", "displayed_gradient",
-      "in_volume", "data_plane_count", "data_planes", "in_data_planes",
+      "chain_texture_from_object", "chain_jacobian", "box_size", "texture_from_box", "texture_from_object",
+      "displayed_gradient", "in_volume", "data_plane_count", "data_planes", "in_data_planes",
       // gpu/gradient.glsl, lib/gradient.glsl
       "voxel", "gradient_texture", "gradient_scale", "gradient_at", "tap", "gradient_value",
       "forward_gradient", "central_gradient", "shown_gradient",

@@ -85,7 +85,7 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
 
   StackGeometry geometry;
   const LensClip clip{prepared.data_clip, prepared.object_clip};
-  const TileCuts cuts = is_bricked(render) ? plan_bricks(prepared).cuts : TileCuts{};
+  const TileCuts cuts = is_bricked(prepared) ? plan_bricks(prepared).cuts : TileCuts{};
   for (const Slice& slice : stack.slices) {
     const Polygon polygon(stack.corners.begin() + slice.first,
                           stack.corners.begin() + slice.first + slice.count);

@@ -43,8 +43,10 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("FILTER_CUBIC");
   if (render.classification == Classification::pre)
     macros.emplace_back("CLASSIFICATION_PRE");
-  if (is_bricked(render))
-    macros.push_back("LEVELS " + std::to_string(render.levels));
+  if (is_bricked(prepared))
+    macros.push_back("LEVELS " + std::to_string(prepared.levels));
+  if (render.footprint == Footprint::mip && prepared.levels > 1)
+    macros.emplace_back("FOOTPRINT");
   switch (render.mode) {
   case Mode::dvr:
     macros.emplace_back("MODE_DVR");
@@ -78,7 +80,7 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("HIGHLIGHT");
   if (has_attenuation(prepared.effects))
     macros.emplace_back("ATTENUATION");
-  if (is_warped(prepared) && !prepared.data_clip.empty())
+  if ((is_warped(prepared) || !prepared.others.empty()) && !prepared.data_clip.empty())
     macros.emplace_back("DATA_PLANES");
   for (std::string& macro : volume_macros(prepared))
     macros.push_back(std::move(macro));
@@ -174,6 +176,10 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
     set_axis_tables(gl, program, scene.axis);
   if (!scene.bricks.empty()) {
     set_uniform(gl, program, "log_zoom", static_cast<float>(prepared.log_zoom));
+    const auto& dims = prepared.volume.dims;
+    set_uniform(gl, program, "volume_voxels", glm::vec3(dims[0], dims[1], dims[2]));
+    set_uniform(gl, program, "sample_steps", glm::mat3(prepared.steps.at_unit));
+    set_uniform(gl, program, "sample_step_scale", glm::vec4(prepared.steps.scale));
     set_level_samplers(gl, program, scene);
     bind_tile(gl, program, scene, 0);
   }

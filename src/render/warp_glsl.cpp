@@ -70,6 +70,7 @@ std::string warp_chain_functions(const std::vector<WarpMap>& maps) {
 void set_warp_maps(const gl::Functions& gl, const gl::Uniforms& program, const std::vector<WarpMap>& maps,
                    const BoxSpace& space, const std::vector<GLenum>& units) {
   set_uniform(gl, program, "box_size", glm::vec3(space.size));
+  set_uniform(gl, program, "texture_from_box", glm::vec3(1.0 / space.size));
   std::size_t grid = 0;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     std::visit([&](const auto& map) { set_struct(gl, program, uniform_name(i), map); }, maps[i]);

@@ -113,6 +113,10 @@ void render_keys(Visitor& visit, Settings& s) {
       "filter", s.filter,
       "nearest, linear (the driver's), linear-exact (float weights in the shader) or cubic (B-spline, which "
       "smooths; eight linear fetches)");
+  visit.key(
+      "footprint", s.footprint,
+      "point (each sample reads one point: Brunet 2006) or mip (it reads the level of a mip pyramid that "
+      "the spacing of samples in the data asks for)");
   visit.key("target", s.target, "what slices blend into: rgba8, rgba16f or rgba32f");
   visit.key("volume_texture", s.volume_texture, "texture the voxels are held in: auto, r8, r16 or r32f");
   visit.key("transfer_texture", s.transfer_texture,
@@ -123,7 +127,9 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key(
       "levels", s.levels,
       "levels of a mip pyramid, 1 to 8: a lens' zoom region reads the finest, what is outside every lens "
-      "the coarsest, a border those between; 1: full resolution everywhere");
+      "the coarsest, a border those between; 1: full resolution everywhere. With footprint mip the most "
+      "levels "
+      "there may be; 1: as many as the picture needs");
   visit.key("axis_texels", s.axis_texels,
             "texels of each 1D texture of pipeline axis, 16 to 4096 (none: one for each voxel)");
   visit.key("axis_filter", s.axis_filter, "how pipeline axis reads its 1D textures: linear or nearest");
@@ -207,6 +213,9 @@ void scene_overlay_keys(Visitor& visit, Settings& s) {
   overlay_keys(visit, s);
   visit.key("stack", s.stack,
             "degrees the camera goes aside to show the slices themselves (LaMar's Figure 7); 0: the volume");
+  visit.key("landmarks", s.landmarks,
+            "radius in pixels of circles around landmarks: red sources, blue targets; 0: none",
+            Range::non_negative);
 }
 
 template <class Visitor, class Settings>

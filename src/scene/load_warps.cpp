@@ -17,8 +17,9 @@ void load_files(Landmarks& landmarks, const std::vector<fs::path>& folders) {
     return;
   const bool texture = landmarks.space == LandmarkSpace::texture;
   if (landmarks.file) {
-    landmarks.loaded = std::make_shared<const std::vector<LandmarkPair>>(
-        read_landmark_pairs(resolve_file(*landmarks.file, folders, "warp.file")));
+    const fs::path file = resolve_file(*landmarks.file, folders, "warp.file");
+    landmarks.loaded = std::make_shared<const std::vector<LandmarkPair>>(read_landmark_pairs(file));
+    landmarks.sha256 = sha256_of({file});
     return;
   }
   const fs::path source_file = resolve_file(landmarks.source.value_or(""), folders, "warp.source");
@@ -34,6 +35,7 @@ void load_files(Landmarks& landmarks, const std::vector<fs::path>& folders) {
   for (std::size_t i = 0; i < source.size(); ++i)
     pairs.push_back({source[i], target[i]});
   landmarks.loaded = std::make_shared<const std::vector<LandmarkPair>>(std::move(pairs));
+  landmarks.sha256 = sha256_of({source_file, target_file});
 }
 
 } // namespace
@@ -79,8 +81,11 @@ void load_list(std::vector<Warp>& warps, const std::vector<fs::path>& folders, c
     if (auto* landmarks = std::get_if<Landmarks>(&warp)) {
       load_files(*landmarks, folders);
     } else if (auto* field = std::get_if<Field>(&warp)) {
-      field->loaded = std::make_shared<const DisplacementField>(
-          read_field(resolve_file(field->file, folders, "warp.file"), field->vectors, progress));
+      const fs::path file = resolve_file(field->file, folders, "warp.file");
+      field->loaded = std::make_shared<const DisplacementField>(read_field(file, field->vectors, progress));
+      VolumeSource source;
+      source.file = file;
+      field->sha256 = sha256_of(files_of(source));
     }
   }
 }
@@ -91,6 +96,14 @@ void load_warp_files(Scene& scene, const std::vector<fs::path>& folders, const P
   load_list(scene.warp, folders, progress);
   for (VolumeLayer& layer : scene.others)
     load_list(layer.warp, folders, progress);
+}
+
+std::string loaded_sha256(const Warp& warp) {
+  if (const auto* landmarks = std::get_if<Landmarks>(&warp))
+    return landmarks->sha256;
+  if (const auto* field = std::get_if<Field>(&warp))
+    return field->sha256;
+  return {};
 }
 
 } // namespace slicelens

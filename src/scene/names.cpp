@@ -85,6 +85,12 @@ const std::vector<EnumName<Classification>>& names_of(Classification) {
   return names;
 }
 
+const std::vector<EnumName<Footprint>>& names_of(Footprint) {
+  static const std::vector<EnumName<Footprint>> names = {{Footprint::point, "point"},
+                                                         {Footprint::mip, "mip"}};
+  return names;
+}
+
 const std::vector<EnumName<Filter>>& names_of(Filter) {
   static const std::vector<EnumName<Filter>> names = {{Filter::nearest, "nearest"},
                                                       {Filter::linear, "linear"},

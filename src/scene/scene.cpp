@@ -231,7 +231,7 @@ void validate_bricks(const Scene& scene) {
     throw UsageError("render.levels must be from 1 to " + std::to_string(max_levels) + ", not " +
                      std::to_string(render.levels));
   }
-  if (render.levels == 1 || scene.warp.empty())
+  if (render.levels == 1 || scene.warp.empty() || render.footprint == Footprint::mip)
     return;
   if (render.pipeline == Pipeline::grid) {
     throw UsageError("render.levels follow the zoom of a lens, which pipeline 'grid' does not hold; set "
@@ -253,6 +253,30 @@ void validate_bricks(const Scene& scene) {
   if (zoom <= 1) {
     throw UsageError("render.levels need a lens that magnifies, and the largest warp.zoom is " +
                      number_text(zoom) + "; raise it above 1 or set render.levels to 1");
+  }
+}
+
+/// Where several resolutions of the whole volume cannot be read.
+void validate_footprint(const Scene& scene) {
+  const RenderSettings& render = scene.render;
+  if (render.footprint == Footprint::point)
+    return;
+  const auto refuse = [](const std::string& problem, const std::string& instead) {
+    throw UsageError("render.footprint 'mip' reads several resolutions of the volume's values, " + problem +
+                     "; set render.footprint to point or " + instead);
+  };
+  if (render.pipeline == Pipeline::fixed_function)
+    refuse("which pipeline 'fixed-function' cannot choose from", "take another pipeline");
+  if (render.classification == Classification::pre)
+    refuse("and classification 'pre' holds colours", "render.classification to post");
+  if (render.tiles != std::array<std::size_t, 3>{1, 1, 1})
+    refuse("which tiles do not hold", "render.tiles to [1,1,1]");
+  if (!scene.planes.empty())
+    refuse("and planes show single values", "remove planes");
+  if (render.shading != Shading::none &&
+      (render.gradient == Gradient::prefiltered || render.gradient == Gradient::precomputed)) {
+    refuse("and the texture of gradient '" + word(render.gradient) + "' has one",
+           "render.gradient to central or forward");
   }
 }
 
@@ -301,7 +325,8 @@ void validate_gradients(const Scene& scene) {
                      "carries to what is shown; set render.gradient_space to data, or render.gradient to "
                      "central, forward or prefiltered");
   }
-  const bool bricked = render.levels > 1 || render.tiles != std::array<std::size_t, 3>{1, 1, 1};
+  const bool bricked = (render.levels > 1 && render.footprint == Footprint::point) ||
+                       render.tiles != std::array<std::size_t, 3>{1, 1, 1};
   if (bricked && own_texture) {
     throw UsageError("render.gradient '" + word(render.gradient) +
                      "' needs a second texture of the whole volume, which render.tiles and render.levels do "
@@ -329,6 +354,8 @@ void validate_several(const Scene& scene) {
     refuse("are combined after classification; set render.classification to post");
   if (render.tiles != std::array<std::size_t, 3>{1, 1, 1} || render.levels != 1)
     refuse("are held in one texture each; set render.tiles to [1,1,1] and render.levels to 1");
+  if (render.footprint == Footprint::mip)
+    refuse("are held at one resolution each; set render.footprint to point");
   if (!scene.planes.empty())
     refuse("have no one value for a cutting plane to show; remove planes, or show one volume");
   if (scene.overlay.stack != 0)
@@ -419,6 +446,10 @@ void validate(const OverlaySettings& overlay) {
     throw UsageError("overlay.line_width must be at most 100 pixels");
   if (!(std::abs(overlay.stack) <= 90))
     throw UsageError("overlay.stack must be from -90 to 90 degrees, not " + number_text(overlay.stack));
+  if (overlay.landmarks > 1000) {
+    throw UsageError("overlay.landmarks must be a radius of at most 1000 pixels, not " +
+                     number_text(overlay.landmarks));
+  }
 }
 
 void validate(const Scene& scene) {
@@ -453,6 +484,7 @@ void validate(const Scene& scene) {
   validate_warps(scene);
   validate_effects(scene);
   validate_bricks(scene);
+  validate_footprint(scene);
   validate_planes(scene);
   validate_gradients(scene);
   for (const ClipSettings& plane : scene.clip) {

@@ -70,6 +70,8 @@ enum class GradientResolution { full, half, quarter };
 /// `pre`: voxels become colours of 8 bits before they are interpolated.
 enum class Classification { post, pre };
 enum class Filter { nearest, linear, linear_exact, cubic };
+/// `mip`: samples read the level of a mip pyramid that their spacing in the data asks for (docs/pipeline.md).
+enum class Footprint { point, mip };
 enum class Target { rgba8, rgba16f, rgba32f };
 enum class VolumeTexture { automatic, r8, r16, r32f };
 enum class TransferTexture { rgba8, rgba32f };
@@ -93,11 +95,13 @@ struct RenderSettings {
   double gradient_sigma = 1; ///< of `prefiltered`: standard deviation in voxels of its copy
   Classification classification = Classification::post;
   Filter filter = Filter::linear;
+  Footprint footprint = Footprint::point;
   Target target = Target::rgba32f;
   VolumeTexture volume_texture = VolumeTexture::automatic;
   TransferTexture transfer_texture = TransferTexture::rgba32f;
   std::array<std::size_t, 3> tiles{1, 1, 1}; ///< textures that the volume is held in, on each axis
-  std::size_t levels = 1;                    ///< of a mip pyramid that a lens reads (1: full resolution only)
+  std::size_t levels = 1; ///< of a mip pyramid that a lens reads (1: full resolution only); with footprint
+                          ///< `mip` the most it may have (1: as many as the picture needs)
   std::optional<std::size_t> axis_texels =
       std::nullopt; ///< of each table of `axis`; none: one for each voxel
   AxisFilter axis_filter = AxisFilter::linear;
@@ -152,6 +156,7 @@ struct OverlaySettings {
   double line_width = 1.5;  ///< pixels
   double stack =
       0; ///< volumes only: degrees the camera goes aside to show the slices themselves; 0: the volume
+  double landmarks = 0; ///< volumes only: radius in pixels of the circles around landmarks; 0: none
 };
 
 /// Section `pick`.

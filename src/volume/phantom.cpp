@@ -35,6 +35,10 @@ PhantomRows ball_rows() {
   });
 }
 
+PhantomRows solid_ball_rows() {
+  return rows_of([](const glm::dvec3& t) { return glm::length(t - 0.5) < kBallRadius ? 255.0 : 0.0; });
+}
+
 PhantomRows blob_rows() {
   return rows_of([](const glm::dvec3& t) {
     const glm::dvec3 q = t - 0.5;
@@ -86,6 +90,15 @@ const std::vector<Recipe>& recipes() {
        glm::dvec3(1),
        0,
        ball_rows},
+      {{"solid-ball",
+        "voxels inside or outside a ball, 8 bit: the blocky sphere of Brunet 2006 Figure 4",
+        "v = 255 for |t - 1/2| < 0.4, else 0",
+        {128, 128, 128},
+        "opaque"},
+       ScalarType::u8,
+       glm::dvec3(1),
+       0,
+       solid_ball_rows},
       {{"blob",
         "a Gaussian blob with closed forms for X-ray and MIP",
         "v = exp(-|t - 1/2|^2 / (2 sigma^2)), sigma = 1/8",

@@ -36,6 +36,7 @@ struct Field {
   std::size_t resolution = 64; ///< nodes on each axis of the grid that all pipelines look the map up in
 
   std::shared_ptr<const DisplacementField> loaded = nullptr; ///< what the file holds; no key
+  std::string sha256 = {};                                   ///< of the files as they were read; no key
 
   bool operator==(const Field&) const = default;
 };

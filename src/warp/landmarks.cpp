@@ -134,6 +134,7 @@ glm::dvec3 box_point(const Landmarks& landmarks, const BoxSpace& space, const gl
 /// The map before it is held on a grid, and a box that holds all that it shows.
 struct Spline {
   PointMap map;
+  GridFill fill; ///< where all nodes of a grid together are cheaper than one by one; else empty
   glm::dvec3 low;
   glm::dvec3 high;
 };
@@ -142,7 +143,7 @@ struct Spline {
 Spline tps_map(const Landmarks& landmarks, const BoxSpace& space, const Points& points) {
   const auto spline = std::make_shared<ThinPlateSpline>(
       fit_thin_plate_spline(points.target, points.source, landmarks.stiffness));
-  Spline result{[spline](const glm::dvec3& p) { return evaluate(*spline, p); }, {}, {}};
+  Spline result{[spline](const glm::dvec3& p) { return evaluate(*spline, p); }, {}, {}, {}};
   for (double margin = 0.5; margin <= 2; margin *= 2) {
     result.low = -margin * space.size;
     result.high = (1 + margin) * space.size;
@@ -167,8 +168,12 @@ Spline bspline_map(const Landmarks& landmarks, const BoxSpace& space, const Poin
   }
   const auto spline = std::make_shared<MultilevelBSpline>(
       fit_multilevel_bspline(points.target, offsets, low, high, landmarks.levels));
-  Spline result{[spline](const glm::dvec3& p) { return p + evaluate(*spline, p); }, low, high};
-  tighten_bounds(result.map, space.size, result.low, result.high);
+  Spline result{[spline](const glm::dvec3& p) { return p + evaluate(*spline, p); },
+                [spline](const auto& size, const glm::dvec3& from, const glm::dvec3& to) {
+                  return evaluate_on_grid(*spline, size, from, to);
+                },
+                low, high};
+  tighten_bounds(result.fill, space.size, result.low, result.high);
   return result;
 }
 
@@ -188,6 +193,8 @@ Spline spline_of(const Landmarks& landmarks, const BoxSpace& space, const Points
 
 GridMap grid_of(const Landmarks& landmarks, const Spline& spline) {
   const std::size_t n = landmarks.resolution;
+  if (spline.fill)
+    return {std::make_shared<const MapGrid>(make_map_grid(spline.fill, {n, n, n}, spline.low, spline.high))};
   return {std::make_shared<const MapGrid>(make_map_grid(spline.map, {n, n, n}, spline.low, spline.high))};
 }
 
@@ -210,6 +217,14 @@ void validate(const Landmarks& landmarks) {
            std::to_string(landmarks.resolution));
   if (pairs_of(landmarks) != nullptr)
     (void)checked_points(landmarks);
+}
+
+std::vector<LandmarkPair> landmarks_in_box(const Landmarks& landmarks, const BoxSpace& space) {
+  const Points points = points_in_box(landmarks, space);
+  std::vector<LandmarkPair> pairs;
+  for (std::size_t i = 0; i < points.source.size(); ++i)
+    pairs.push_back({points.source[i], points.target[i]});
+  return pairs;
 }
 
 GridMap landmark_map(const Landmarks& landmarks, const BoxSpace& space) {

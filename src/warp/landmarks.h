@@ -32,6 +32,7 @@ struct Landmarks {
   std::size_t resolution = 64; ///< nodes on each axis of the grid that all pipelines look the map up in
 
   std::shared_ptr<const std::vector<LandmarkPair>> loaded = nullptr; ///< what the files hold; no key
+  std::string sha256 = {}; ///< of the files as they were read; no key
 
   bool operator==(const Landmarks&) const = default;
 };
@@ -41,6 +42,9 @@ inline constexpr std::size_t max_landmarks = 2000; ///< a system of so many equa
 /// Throws UsageError naming the key: no points or two kinds of them, numbers beyond their limits, and lists
 /// of points that determine no map (see landmark_map) as far as they are there already.
 void validate(const Landmarks& landmarks);
+
+/// The different pairs in box space. Throws UsageError as landmark_map does.
+std::vector<LandmarkPair> landmarks_in_box(const Landmarks& landmarks, const BoxSpace& space);
 
 /// The inverse map with u(target) = source, held on a grid of `resolution`³ nodes over the box in which the
 /// volume is shown. Pairs given twice count once. Throws UsageError saying which landmarks are at fault:

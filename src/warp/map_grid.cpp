@@ -25,7 +25,7 @@ struct GridFunctions {
   }
 
   /// Trilinear at x, counted in nodes and within the grid.
-  static vec3 sample_grid(GridRef grid, vec3 x) {
+  static vec3 sample_grid(GridRef grid, vec3 x, vec3) {
     const ivec3 last(grid->size[0] - 1, grid->size[1] - 1, grid->size[2] - 1);
     const ivec3 i = min(ivec3(x), last - 1);
     const vec3 f = x - vec3(i);
@@ -50,7 +50,8 @@ namespace {
 using shared::GridFunctions;
 
 GridFunctions::GridMap shared_map(const MapGrid& grid) {
-  return {grid.low, grid.high, glm::dvec3(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1), &grid};
+  const glm::dvec3 nodes(grid.size[0], grid.size[1], grid.size[2]);
+  return {grid.low, grid.high, nodes - 1.0, (nodes - 1.0) / (grid.high - grid.low), 1.0 / nodes, &grid};
 }
 
 void check_grid(const std::array<std::size_t, 3>& size, const glm::dvec3& low, const glm::dvec3& high) {
@@ -95,6 +96,19 @@ MapGrid make_map_grid(const PointMap& map, const std::array<std::size_t, 3>& siz
   });
   if (!finite)
     throw UsageError("the map of a warp is not finite everywhere and cannot be held in a grid");
+  return grid;
+}
+
+MapGrid make_map_grid(const GridFill& offsets, const std::array<std::size_t, 3>& size, const glm::dvec3& low,
+                      const glm::dvec3& high) {
+  check_grid(size, low, high);
+  MapGrid grid{size, low, high, {}};
+  grid.offsets.reserve(size[0] * size[1] * size[2]);
+  for (const glm::dvec3& offset : offsets(size, low, high)) {
+    if (!is_finite(offset))
+      throw UsageError("the map of a warp is not finite everywhere and cannot be held in a grid");
+    grid.offsets.emplace_back(offset, 0);
+  }
   return grid;
 }
 
@@ -164,10 +178,23 @@ void shown_cells(const MapGrid& grid, const glm::dvec3& box_low, const glm::dvec
 
 } // namespace
 
-void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high) {
-  // Each pass has smaller cells.
+namespace {
+
+/// Each pass has smaller cells.
+template <class Map>
+void tighten(const Map& map, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high) {
   for (int pass = 0; pass < 3; ++pass)
     shown_cells(make_map_grid(map, {17, 17, 17}, low, high), glm::dvec3(0), size, low, high);
+}
+
+} // namespace
+
+void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high) {
+  tighten(map, size, low, high);
+}
+
+void tighten_bounds(const GridFill& offsets, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high) {
+  tighten(offsets, size, low, high);
 }
 
 void grid_bounds(const MapGrid& grid, const glm::dvec3& box_low, const glm::dvec3& box_high, glm::dvec3& low,

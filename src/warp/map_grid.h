@@ -36,6 +36,14 @@ glm::dvec3 node_position(const MapGrid& grid, std::size_t i, std::size_t j, std:
 MapGrid make_map_grid(const PointMap& map, const std::array<std::size_t, 3>& size, const glm::dvec3& low,
                       const glm::dvec3& high);
 
+/// How else a grid may be filled: all its nodes at once.
+using GridFill = std::function<std::vector<glm::dvec3>(const std::array<std::size_t, 3>& size,
+                                                       const glm::dvec3& low, const glm::dvec3& high)>;
+
+/// The same from displacements u − p of all nodes, x fastest.
+MapGrid make_map_grid(const GridFill& offsets, const std::array<std::size_t, 3>& size, const glm::dvec3& low,
+                      const glm::dvec3& high);
+
 /// A grid as a map: what shaders/warp/grid.glsl computes.
 struct GridMap {
   std::shared_ptr<const MapGrid> grid; ///< never null
@@ -53,15 +61,19 @@ glm::dvec3 object_from_texture(const GridMap& map, const glm::dvec3& u);
 /// The texture with the displacements is the renderer's to set.
 template <class Set>
 void visit_fields(const GridMap& map, const Set& set) {
+  const glm::dvec3 nodes(map.grid->size[0], map.grid->size[1], map.grid->size[2]);
   set("low", map.grid->low);
   set("high", map.grid->high);
-  set("cells", glm::dvec3(map.grid->size[0] - 1, map.grid->size[1] - 1, map.grid->size[2] - 1));
+  set("cells", nodes - 1.0);
+  set("scale", (nodes - 1.0) / (map.grid->high - map.grid->low));
+  set("texel", 1.0 / nodes);
 }
 
 /// A box that holds every point where `map` shows something of the data box [0, size], found from the map on
 /// a grid of cells over [low, high]: never too small by more than the map bends within a cell. [low, high]
 /// itself where nothing is shown.
 void tighten_bounds(const PointMap& map, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high);
+void tighten_bounds(const GridFill& offsets, const glm::dvec3& size, glm::dvec3& low, glm::dvec3& high);
 
 /// Bounds of where the grid's map shows the points of a box, box space; conservative.
 void grid_bounds(const MapGrid& grid, const glm::dvec3& box_low, const glm::dvec3& box_high, glm::dvec3& low,

@@ -1,5 +1,7 @@
 #include "warp/multilevel_bspline.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +10,22 @@ namespace slicelens {
 
 namespace {
 
-/// The four control values on each axis that a point depends on, and their weights.
+/// The four control values on one axis that a coordinate depends on, and their weights.
+struct AxisSupport {
+  std::size_t first = 0;
+  std::array<double, 4> weights{};
+};
+
+/// `x` ∈ [0, spans], counted in spans.
+AxisSupport axis_support(double x, double spans) {
+  const double cell = std::min(std::floor(x), spans - 1);
+  const double t = x - cell;
+  return {static_cast<std::size_t>(cell),
+          {(1 - t) * (1 - t) * (1 - t) / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
+           (-3 * t * t * t + 3 * t * t + 3 * t + 1) / 6, t * t * t / 6}};
+}
+
+/// The same on each axis, of a point.
 struct Support {
   std::array<std::size_t, 3> first{};
   std::array<std::array<double, 4>, 3> weights{};
@@ -24,11 +41,9 @@ Support support_of(const MultilevelBSpline& spline, std::size_t level, const glm
   Support support;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const double cell = std::min(std::floor(x[axis]), spans - 1);
-    const double t = x[axis] - cell;
-    support.first[a] = static_cast<std::size_t>(cell);
-    support.weights[a] = {(1 - t) * (1 - t) * (1 - t) / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
-                          (-3 * t * t * t + 3 * t * t + 3 * t + 1) / 6, t * t * t / 6};
+    const AxisSupport own = axis_support(x[axis], spans);
+    support.first[a] = own.first;
+    support.weights[a] = own.weights;
   }
   return support;
 }
@@ -98,6 +113,70 @@ glm::dvec3 evaluate(const MultilevelBSpline& spline, const glm::dvec3& p) {
   for (std::size_t level = 0; level < spline.levels.size(); ++level)
     sum += evaluate_level(spline, level, p);
   return sum;
+}
+
+namespace {
+
+/// Of the nodes of a grid on one axis.
+std::vector<AxisSupport> node_supports(const MultilevelBSpline& spline, std::size_t level, int axis,
+                                       std::size_t count, double low, double high) {
+  const double spans = std::ldexp(1, static_cast<int>(level));
+  std::vector<AxisSupport> supports;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double p = low + static_cast<double>(i) / static_cast<double>(count - 1) * (high - low);
+    const double x = (p - spline.low[axis]) / (spline.high[axis] - spline.low[axis]);
+    supports.push_back(axis_support(std::clamp(x, 0.0, 1.0) * spans, spans));
+  }
+  return supports;
+}
+
+/// Σ weights · rows of `length` values that lie one after another from row `first` on, added to `out`.
+void add_rows(const glm::dvec3* rows, const AxisSupport& support, std::size_t length, glm::dvec3* out) {
+  const glm::dvec3* row = rows + support.first * length;
+  for (std::size_t i = 0; i < length; ++i) {
+    out[i] += support.weights[0] * row[i] + support.weights[1] * row[length + i] +
+              support.weights[2] * row[2 * length + i] + support.weights[3] * row[3 * length + i];
+  }
+}
+
+/// One level on all nodes: along x and y in each plane of control values, then along z between the planes.
+void add_level(const MultilevelBSpline& spline, std::size_t level, const std::array<std::size_t, 3>& size,
+               const std::array<std::vector<AxisSupport>, 3>& supports, std::vector<glm::dvec3>& sums) {
+  const std::size_t n = nodes_of(level);
+  const std::size_t plane_size = size[0] * size[1];
+  const std::vector<glm::dvec3>& controls = spline.levels[level];
+  const std::size_t first = supports[2].front().first;
+  const std::size_t last = supports[2].back().first + 4;
+  std::vector<glm::dvec3> planes(n * plane_size, glm::dvec3(0));
+  tbb::parallel_for(first, last, [&](std::size_t c) {
+    std::vector<glm::dvec3> rows(n * size[0], glm::dvec3(0));
+    for (std::size_t b = 0; b < n; ++b) {
+      for (std::size_t i = 0; i < size[0]; ++i)
+        add_rows(controls.data() + (c * n + b) * n, supports[0][i], 1, &rows[b * size[0] + i]);
+    }
+    for (std::size_t j = 0; j < size[1]; ++j)
+      add_rows(rows.data(), supports[1][j], size[0], &planes[c * plane_size + j * size[0]]);
+  });
+  tbb::parallel_for(std::size_t{0}, size[2], [&](std::size_t k) {
+    add_rows(planes.data(), supports[2][k], plane_size, &sums[k * plane_size]);
+  });
+}
+
+} // namespace
+
+std::vector<glm::dvec3> evaluate_on_grid(const MultilevelBSpline& spline,
+                                         const std::array<std::size_t, 3>& size, const glm::dvec3& low,
+                                         const glm::dvec3& high) {
+  std::vector<glm::dvec3> sums(size[0] * size[1] * size[2], glm::dvec3(0));
+  for (std::size_t level = 0; level < spline.levels.size(); ++level) {
+    std::array<std::vector<AxisSupport>, 3> supports;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      supports[a] = node_supports(spline, level, axis, size[a], low[axis], high[axis]);
+    }
+    add_level(spline, level, size, supports, sums);
+  }
+  return sums;
 }
 
 } // namespace slicelens

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -27,5 +28,11 @@ MultilevelBSpline fit_multilevel_bspline(std::span<const glm::dvec3> at, std::sp
 
 /// At p; outside the box at the nearest point of it.
 glm::dvec3 evaluate(const MultilevelBSpline& spline, const glm::dvec3& p);
+
+/// The same at all nodes of a regular grid from `low` to `high`, x fastest, at least 2 nodes on each axis:
+/// axis by axis, 12 multiplications a level and node instead of 64; equal to evaluate() but for rounding.
+std::vector<glm::dvec3> evaluate_on_grid(const MultilevelBSpline& spline,
+                                         const std::array<std::size_t, 3>& size, const glm::dvec3& low,
+                                         const glm::dvec3& high);
 
 } // namespace slicelens

@@ -270,3 +270,20 @@ TEST_CASE("the wireframe of a subdivided slice shows its cells, and their diagon
     CHECK_FALSE(lit(2.5, 0));
   }
 }
+
+TEST_CASE("circles lie around the sources and the targets of landmarks") {
+  // Texture (.5, .5, .5) is the picture's middle; face on, x goes right, and 0.2 of the edge are 0.2 units.
+  const PreparedScene scene = face_on(
+      R"("landmarks":6,"line_width":3)",
+      R"({"kind":"landmarks","method":"bspline","space":"texture","pairs":[[[0.5,0.5,0.5],[0.7,0.5,0.5]]]})");
+  Image image = make_image(size, size);
+  draw_overlays(image, scene);
+  const double target = 100 + 0.2 * unit(scene);
+  for (const double angle : {0.3, 1.2, 2.9, 4.4}) {
+    const double x = 6 * std::cos(angle);
+    const double y = 6 * std::sin(angle);
+    CHECK(is_color(image, 100 + x, 100 + y, {1.0F, 0.1F, 0.1F}));
+    CHECK(is_color(image, target + x, 100 + y, {0.15F, 0.4F, 1.0F}));
+  }
+  CHECK(is_color(image, 100, 100, {0, 0, 0}));
+}

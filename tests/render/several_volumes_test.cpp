@@ -259,6 +259,7 @@ TEST_CASE("what several volumes cannot do is refused by name") {
              Catch::Contains("volumes[1]") && Catch::Contains("draws no warp"));
   CHECK_THAT(refusal("render.tiles=[2,1,1]"), Catch::Contains("render.tiles"));
   CHECK_THAT(refusal("render.levels=2"), Catch::Contains("render.levels"));
+  CHECK_THAT(refusal("render.footprint=mip"), Catch::Contains("render.footprint"));
   CHECK_THAT(refusal("render.classification=pre"), Catch::Contains("render.classification"));
   CHECK_THAT(refusal("planes=[{}]"), Catch::Contains("planes"));
   CHECK_THAT(refusal("volume.phantom=ball"), Catch::Contains("both given"));

@@ -157,6 +157,28 @@ TEST_CASE("rendering again refuses a volume that has changed, unless it is named
   CHECK(contents(place / "a.png") != contents(place / "b.png"));
 }
 
+TEST_CASE("a picture says which landmarks made it, and rendering again refuses others") {
+  const Workplace place;
+  put(place / "points.csv", "0,0,0,1,0,0\n");
+  // Of that line, by coreutils' sha256sum.
+  const std::string hash = "db910dc4b5de3783127fea43eb4f38cf70f994ea18a8da784ca1c346e8c501be";
+  put(place / "s.json", R"({"volume": {"phantom": "blob", "size": [12, 12, 12]}, "render": {"size": [24, 20]},
+      "warp": [{"kind": "shift", "offset": [0.1, 0, 0]}, {"kind": "landmarks", "method": "bspline", "file": "points.csv"}]})");
+  done(place, {"render", "s.json", "-o", "a.png"});
+  CHECK(contents(place / "a.png").find("slicelens:warp1_sha256") != std::string::npos);
+  CHECK(contents(place / "a.png").find(hash) != std::string::npos);
+  CHECK(contents(place / "a.png").find("slicelens:warp0_sha256") == std::string::npos);
+  done(place, {"render", "a.png", "-o", "b.png"});
+  put(place / "points.csv", "0,0,0,2,0,0\n");
+  const Outcome refused = place.run({"render", "a.png", "-o", "c.png"});
+  CHECK(refused.status == 1);
+  CHECK_THAT(refused.err, Contains("a.png") && Contains("landmarks") && Contains("SHA-256"));
+  CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
+  CHECK_FALSE(fs::exists(place / "c.png"));
+  done(place, {"render", "a.png", "-o", "c.png", "--set", "warp[1].file=points.csv"});
+  CHECK(fs::exists(place / "c.png"));
+}
+
 TEST_CASE("a scene's paths count from its own folder") {
   const Workplace place;
   fs::create_directories(place / "scenes");

@@ -311,3 +311,19 @@ TEST_CASE("the engine has bores, sleeves and a front inlet") {
   CHECK(at(21, -85, -8) > 60); // the inlet's boss, which the back does not have
   CHECK(at(21, 85, -8) < 15);
 }
+
+TEST_CASE("the solid ball is the ball's inside and outside") {
+  const Volume ball = make_phantom("ball", {24, 24, 24});
+  const Volume solid = make_phantom("solid-ball", {24, 24, 24});
+  CHECK(solid.type == ScalarType::u8);
+  std::size_t inside = 0;
+  for (std::size_t k = 0; k < 24; ++k) {
+    for (std::size_t j = 0; j < 24; ++j) {
+      for (std::size_t i = 0; i < 24; ++i) {
+        CHECK(value_at(solid, i, j, k) == (value_at(ball, i, j, k) > 0 ? 255 : 0));
+        inside += value_at(solid, i, j, k) > 0 ? 1 : 0;
+      }
+    }
+  }
+  CHECK(static_cast<double>(inside) == Approx(4.0 / 3 * 3.14159 * std::pow(0.4 * 24, 3)).epsilon(0.02));
+}

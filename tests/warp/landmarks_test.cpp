@@ -169,6 +169,24 @@ TEST_CASE("a multilevel B-spline of one point, by hand, and of many, near their 
   CHECK(before < 1e-12); // 64 spans: no two of the points share a control
 }
 
+TEST_CASE("a multilevel B-spline on a grid is what it is point by point") {
+  const std::vector<glm::dvec3> at = random_points(30);
+  const MultilevelBSpline spline =
+      fit_multilevel_bspline(at, random_points(30), glm::dvec3(-2), glm::dvec3(2), 6);
+  // Beyond the spline's box as well, where it is that of the nearest point.
+  const glm::dvec3 low(-2.5, -1, -0.3);
+  const glm::dvec3 high(1.7, 2.4, 0.9);
+  const std::array<std::size_t, 3> size = {9, 7, 12};
+  const std::vector<glm::dvec3> sums = evaluate_on_grid(spline, size, low, high);
+  REQUIRE(sums.size() == 9 * 7 * 12);
+  for (std::size_t index = 0; index < sums.size(); ++index) {
+    const glm::dvec3 node(static_cast<double>(index % 9) / 8, static_cast<double>(index / 9 % 7) / 6,
+                          static_cast<double>(index / 63) / 11);
+    // Sums of 64 products in another order, in double precision.
+    CHECK(glm::length(sums[index] - evaluate(spline, low + node * (high - low))) < 1e-13);
+  }
+}
+
 TEST_CASE("a multilevel B-spline is ITK's BSplineScatteredDataPointSetToImageFilter") {
   using Vector = itk::Vector<double, 3>;
   using Image = itk::Image<Vector, 3>;

@@ -87,5 +87,7 @@ void opacity_section(const Bench& bench);
 void vessel_section(const Bench& bench);
 void axis_section(const Bench& bench);
 void gradient_section(const Bench& bench);
+void footprint_section(const Bench& bench);
+void grid_section(const Bench& bench);
 
 } // namespace slicelens::accuracy

@@ -18,24 +18,6 @@ constexpr int kPixels = 96;
 constexpr double kSpacing = 0.125;
 constexpr double kRadius = kBallRadius * kVoxels; // voxels
 
-/// The sphere as 8-bit voxels that are inside or outside: what the blocky sphere of Brunet's Figure 4 is.
-Volume solid_ball() {
-  Volume volume;
-  volume.dims = {kVoxels, kVoxels, kVoxels};
-  volume.origin = glm::dvec3(-0.5 * (kVoxels - 1));
-  volume.type = ScalarType::u8;
-  for (int k = 0; k < kVoxels; ++k) {
-    for (int j = 0; j < kVoxels; ++j) {
-      for (int i = 0; i < kVoxels; ++i) {
-        const glm::dvec3 p = glm::dvec3(i, j, k) + volume.origin;
-        volume.voxels.push_back(glm::length(p) < kRadius ? std::byte{255} : std::byte{0});
-      }
-    }
-  }
-  update_statistics(volume);
-  return volume;
-}
-
 /// Opaque and black from `threshold` on, so that shading `tone` shows k = (1 + n·l)/2 of the first sample.
 Subject sphere_subject(const std::string& name, Volume volume, double threshold) {
   Scene scene = oblique_scene(kPixels);
@@ -78,9 +60,19 @@ std::vector<Display> displays() {
   fisheye.center = {0.4, 0.3, 0.55};
   fisheye.distortion = glm::dvec3(2);
   const LensBox box = {{0.35, 0.3, 0.55}, glm::dvec3(0.12), glm::dvec3(0.3), 2};
-  std::vector<Display> list = {
-      {"undeformed", {}}, {"fisheye", {fisheye}}, {"connected lens", {ConnectedLens{box}}}};
-  return list;
+  Twist twist;
+  twist.center = {0.4, 0.45, 0.5};
+  twist.angle = 120;
+  Sine sine;
+  sine.axis = Axis::x;
+  sine.along = Axis::z;
+  sine.amplitude = 0.04;
+  sine.wavelength = 0.5;
+  return {{"undeformed", {}},
+          {"fisheye", {fisheye}},
+          {"connected lens", {ConnectedLens{box}}},
+          {"twist", {twist}},
+          {"sine", {sine}}};
 }
 
 /// Signed distance in voxels from the sphere of what is shown at p, texture coordinates.
@@ -226,10 +218,12 @@ void gradient_section(const Bench& bench) {
       << fixed(glm::degrees(kSpacing * std::tan(glm::radians(60.0)) / kRadius), 2)
       << "°. Fisheye: d = 2 at (0.4, 0.3, 0.55); connected lens: magnification 2 at (0.35, 0.3, 0.55), "
          "inner 0.12, "
-         "outer 0.3. `data`, `object`: render.gradient_space.\n\n";
+         "outer 0.3; twist: 120° along z about (0.4, 0.45, 0.5); sine: x along z, amplitude 0.04, wavelength "
+         "0.5. `data`, `object`: render.gradient_space.\n\n";
   Subject smooth = sphere_subject("Phantom `ball`: a signed distance in floats",
                                   make_phantom("ball", {kVoxels, kVoxels, kVoxels}), 0);
-  Subject solid = sphere_subject("Voxels inside or outside, 8 bits", solid_ball(), 127.5);
+  Subject solid = sphere_subject("Phantom `solid-ball`: voxels inside or outside, 8 bits",
+                                 make_phantom("solid-ball", {kVoxels, kVoxels, kVoxels}), 127.5);
   kinds_table(bench, smooth);
   kinds_table(bench, solid);
   sigma_table(bench, solid);

@@ -20,11 +20,16 @@ struct Section {
 };
 
 const std::vector<Section>& sections() {
-  static const std::vector<Section> list = {
-      {"closed-forms", closed_form_section}, {"parity", parity_section},
-      {"perspective", perspective_section},  {"precision", precision_section},
-      {"opacity", opacity_section},          {"axis", axis_section},
-      {"gradients", gradient_section},       {"vessels", vessel_section}};
+  static const std::vector<Section> list = {{"closed-forms", closed_form_section},
+                                            {"parity", parity_section},
+                                            {"perspective", perspective_section},
+                                            {"precision", precision_section},
+                                            {"opacity", opacity_section},
+                                            {"axis", axis_section},
+                                            {"gradients", gradient_section},
+                                            {"footprint", footprint_section},
+                                            {"grids", grid_section},
+                                            {"vessels", vessel_section}};
   return list;
 }
 
@@ -70,8 +75,8 @@ int main(int argc, char** argv) {
                  "engine/engine.vti, bonsai/bonsai.nii.gz, aneurism/aneurism.vti); those present are used")
       ->type_name("DIR");
   app.add_option("sections", wanted, "which; all by default")
-      ->check(CLI::IsMember(
-          {"closed-forms", "parity", "perspective", "precision", "opacity", "axis", "gradients", "vessels"}));
+      ->check(CLI::IsMember({"closed-forms", "parity", "perspective", "precision", "opacity", "axis",
+                             "gradients", "footprint", "grids", "vessels"}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -64,5 +64,7 @@ void run_lens2d(gl::Context& context, const BenchOptions& options);
 void run_lens3d(gl::Context& context, const BenchOptions& options);
 void run_axis(gl::Context& context, const BenchOptions& options);
 void run_deform(gl::Context& context, const BenchOptions& options);
+void run_grids(gl::Context& context, const BenchOptions& options);
+void run_drag(gl::Context& context, const BenchOptions& options);
 
 } // namespace slicelens::bench

@@ -50,6 +50,10 @@ void run(const BenchOptions& options) {
       run_axis(context, options);
     if (wanted("deform"))
       run_deform(context, options);
+    if (wanted("grids"))
+      run_grids(context, options);
+    if (wanted("drag"))
+      run_drag(context, options);
   }
   if (wanted("phases"))
     run_phases(options);
@@ -67,8 +71,8 @@ int main(int argc, char** argv) {
                "a picture. Prints Markdown.",
                "slicelens_bench");
   app.add_option("sections", options.sections,
-                 "fill, options, lens2d, lens3d, axis, deform, phases; none: all")
-      ->check(CLI::IsMember({"fill", "options", "lens2d", "lens3d", "axis", "deform", "phases"}));
+                 "fill, options, lens2d, lens3d, axis, deform, grids, drag, phases; none: all")
+      ->check(CLI::IsMember({"fill", "options", "lens2d", "lens3d", "axis", "deform", "grids", "drag", "phases"}));
   app.add_option("--volume", options.volumes, "volume files or folders for `phases`")->type_name("PATH");
   app.add_option("--edge", options.edge, "voxels on an edge of the phantom")->check(CLI::Range(8, 1024));
   app.add_option("--picture", options.picture, "pixels on an edge of the picture")

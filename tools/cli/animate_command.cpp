@@ -253,7 +253,7 @@ void render_frames(const Animation& animation, const std::vector<std::size_t>& m
       start = std::chrono::steady_clock::now();
     }
     RenderResult result = render_with(context, *prepared, progress);
-    add_metadata(result, input.scene, sha256);
+    add_metadata(result, prepared->scene, sha256);
     write_image(result.image, animation.folder / frame_name(missing[done]), PixelDepth::png8);
     const auto now = std::chrono::steady_clock::now();
     report_frames(console, done + 1, missing.size(), std::chrono::duration<double>(now - start).count());

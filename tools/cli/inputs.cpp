@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 namespace slicelens::cli {
 
@@ -49,6 +50,33 @@ void require_hash(const SceneInput& input, const std::string& sha256) {
                                                 " was rendered from (SHA-256 " + sha256.substr(0, 12) +
                                                 "…, then " + input.expected_sha256.substr(0, 12) +
                                                 "…); name the right one with --set volume.file=…");
+}
+
+/// The names under which a picture keeps the hashes of what warps have read: those of the first volume, then
+/// those of others.
+std::vector<std::pair<std::string, const Warp*>> named_warps(const Scene& scene) {
+  std::vector<std::pair<std::string, const Warp*>> list;
+  const auto add = [&](const std::string& owner, const std::vector<Warp>& warps) {
+    for (std::size_t i = 0; i < warps.size(); ++i)
+      list.emplace_back("slicelens:" + owner + "warp" + std::to_string(i) + "_sha256", &warps[i]);
+  };
+  add("", scene.warp);
+  for (std::size_t k = 0; k < scene.others.size(); ++k)
+    add("volume" + std::to_string(k + 1) + "_", scene.others[k].warp);
+  return list;
+}
+
+void require_warp_hashes(const SceneInput& input, const Scene& loaded) {
+  for (const auto& [name, warp] : named_warps(loaded)) {
+    const auto expected = input.expected_warp_sha256.find(name);
+    const std::string hash = loaded_sha256(*warp);
+    if (expected == input.expected_warp_sha256.end() || hash == expected->second)
+      continue;
+    throw FileError(input.source, "the files of its warp '" + kind_of(*warp) +
+                                      "' have changed since it was rendered (SHA-256 " + hash.substr(0, 12) +
+                                      "…, then " + expected->second.substr(0, 12) +
+                                      "…); put the right ones there or name them with --set warp…");
+  }
 }
 
 } // namespace
@@ -93,6 +121,14 @@ SceneText scene_of_picture(const std::string& picture, const std::vector<KeyValu
                                         [](const KeyValue& c) { return c.key.rfind("volume", 0) == 0; });
   if (hash != metadata.end() && !other_volume)
     result.input.expected_sha256 = hash->second;
+  const bool other_warp = std::any_of(changes.begin(), changes.end(), [](const KeyValue& c) {
+    return c.key.rfind("warp", 0) == 0 || c.key.rfind("volumes", 0) == 0;
+  });
+  for (const auto& [name, warp] : named_warps(result.input.scene)) {
+    const auto warp_hash = metadata.find(name);
+    if (!other_warp && warp_hash != metadata.end())
+      result.input.expected_warp_sha256[name] = warp_hash->second;
+  }
   return result;
 }
 
@@ -151,6 +187,7 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
   load_transfer_file(scene.transfer, volume, input.folders, progress);
   TransferFunction transfer = transfer_of(scene, volume);
   load_warp_files(scene, input.folders, progress);
+  require_warp_hashes(input, scene);
   std::vector<LoadedVolume> others = load_others(scene, input.folders, progress);
   for (std::size_t i = 0; i < others.size(); ++i) // what load_others has read, and said what was to be said
     load_transfer_file(scene.others[i].transfer, others[i].volume, input.folders, {});
@@ -232,6 +269,11 @@ void add_metadata(RenderResult& result, const Scene& scene, const std::string& s
     metadata["slicelens:gl_limits"] = result.limits;
   if (!sha256.empty())
     metadata["slicelens:volume_sha256"] = sha256;
+  for (const auto& [name, warp] : named_warps(scene)) {
+    const std::string hash = loaded_sha256(*warp);
+    if (!hash.empty())
+      metadata[name] = hash;
+  }
 }
 
 } // namespace slicelens::cli

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <future>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct SceneInput {
   std::vector<std::filesystem::path> folders; ///< places a relative volume.file is looked for in, in order
   std::string expected_sha256;                ///< of the volume file, when the scene comes from a picture
   std::string source;                         ///< what the user named
+  std::map<std::string, std::string> expected_warp_sha256 =
+      {}; ///< likewise, of warps' files, by metadata name
 };
 
 enum class InputKind { scene, picture, volume };
@@ -53,8 +56,8 @@ SceneInput scene_text_input(const std::string& text, const std::string& source,
 std::future<std::string> start_hash(const SceneInput& input);
 
 /// Reads or makes the volume and works everything out. `sha256` receives the hash of the volume's files
-/// (empty for phantoms), `hashing` is one already started. Throws FileError when the hash is not the expected
-/// one.
+/// (empty for phantoms), `hashing` is one already started. Throws FileError when a hash is not the expected
+/// one: of the volume, or of the files that a warp reads.
 PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256 = nullptr,
                    std::future<std::string> hashing = {});
 
@@ -77,7 +80,8 @@ void open_context(OpenContext& context, const Scene& scene);
 /// The same, and renders.
 RenderResult render_with(OpenContext& context, const PreparedScene& prepared, const Progress& progress);
 
-/// Stores scene, version, driver and hash with the picture.
+/// Stores scene, version, driver and hashes with the picture: `sha256` of the volume, and those of the files
+/// that the scene's warps have read.
 void add_metadata(RenderResult& result, const Scene& scene, const std::string& sha256);
 
 } // namespace slicelens::cli

@@ -68,6 +68,7 @@ void use_probe_settings(RenderSettings& render, bool warped) {
   render.classification = Classification::post;
   render.tiles = {1, 1, 1};
   render.levels = 1;
+  render.footprint = Footprint::point;
 }
 
 bool is_warped_scene(const Scene& scene) {

@@ -42,6 +42,7 @@ void run_slice(const SliceOptions& options) {
   SceneInput input = scene_input(options.input, options.set);
   const std::size_t index = checked_volume(input.scene, options.volume);
   input.scene.render.mode = Mode::dvr;
+  input.scene.render.footprint = Footprint::point;
   input.scene.overlay = {};
   Scene alone = scene_of_volume(input.scene, index);
   alone.planes = {plane_of(options)};
