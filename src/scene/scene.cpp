@@ -41,6 +41,34 @@ void validate_camera(const CameraSettings& camera) {
     throw UsageError("camera.view_up is the zero vector; give a direction");
 }
 
+void validate_transfer(const TransferSettings& transfer) {
+  const auto refuse = [](const char* a, const char* b) {
+    throw UsageError(std::string("transfer.") + a + " and transfer." + b + " are both given; keep one");
+  };
+  if (transfer.preset && transfer.points)
+    refuse("preset", "points");
+  if (transfer.preset && transfer.file)
+    refuse("preset", "file");
+  if (transfer.points && transfer.file)
+    refuse("points", "file");
+  if (transfer.file && transfer.file->empty())
+    throw UsageError("transfer.file is empty; name a file");
+  if ((transfer.map || transfer.range) && !transfer.file)
+    throw UsageError("transfer.map and transfer.range belong to transfer.file, which is not given");
+  if (transfer.range && !(transfer.range->x < transfer.range->y))
+    throw UsageError("transfer.range must be [first, last] with first below last");
+}
+
+void validate_camera_file(const CameraSettings& camera) {
+  const CameraSettings usual;
+  if (camera.file->empty())
+    throw UsageError("camera.file is empty; name a file");
+  if (camera.position || camera.focal_point || camera.view_up || camera.parallel_scale ||
+      camera.azimuth != 0 || camera.elevation != 0 || camera.roll != 0 ||
+      camera.projection != usual.projection || camera.view_angle != usual.view_angle)
+    throw UsageError("camera.file holds a whole camera; of the other keys only camera.zoom goes with it");
+}
+
 void validate_render(const RenderSettings& render) {
   for (const std::size_t n : render.size) {
     if (n < 1 || n > 32768)
@@ -478,9 +506,9 @@ void validate(const Scene& scene) {
   }
   validate_placement(scene.placement);
   validate_volume(scene.volume);
-  if (scene.transfer.preset && scene.transfer.points) {
-    throw UsageError("transfer.preset and transfer.points are both given; keep one");
-  }
+  validate_transfer(scene.transfer);
+  if (scene.camera.file)
+    validate_camera_file(scene.camera);
   validate_camera(scene.camera);
   if (scene.render.pipeline == Pipeline::fixed_function)
     validate_fixed_function(scene.render);

@@ -32,6 +32,9 @@ struct TransferSettings {
   std::optional<std::string> preset = std::nullopt;
   std::optional<std::vector<std::array<double, 5>>> points =
       std::nullopt;                                   ///< value (data units), r, g, b, opacity in [0,1]
+  std::optional<std::string> file = std::nullopt;     ///< as given (scene/transfer_files.h)
+  std::optional<std::string> map = std::nullopt;      ///< of a file that holds several
+  std::optional<glm::dvec2> range = std::nullopt;     ///< onto which the points of a file are stretched
   std::optional<double> unit_distance = std::nullopt; ///< Δ₀, world units; none: h
 };
 
@@ -39,6 +42,7 @@ enum class ProjectionName { orthographic, perspective };
 
 /// Section `camera`. Angles in degrees, positions in world space (LPS).
 struct CameraSettings {
+  std::optional<std::string> file = std::nullopt; ///< as given; excludes everything else but zoom
   double azimuth = 0;
   double elevation = 0;
   double roll = 0;
