@@ -10,6 +10,7 @@
 #else
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
+#include "gpu/labels.glsl"
 #include "gpu/classified.glsl"
 #include "generated/warps.glsl"
 #include "gpu/warp.glsl"
@@ -84,6 +85,37 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #endif
 #endif
 }
+#elif defined(LOCAL_MODES)
+// Labels, some of which a run of samples becomes more than the samples one by one.
+#include "lib/two_level.glsl"
+uniform float xray_scale;
+
+TwoLevel gather_objects(TwoLevel state, vec3 p, vec3 to_eye) {
+#ifdef WARPED
+  vec3 t = texture_from_object(p);
+  if (!in_volume(t) || !in_data_planes(t)) return ended_run(state, xray_scale);
+#else
+  vec3 t = p;
+#endif
+  int row = label_row(t);
+  int mode = label_mode(row);
+  float value = displayed_value(t);
+  vec4 color = classify_row(row, value);
+#ifdef MODULATED
+  if (mode != 1) color.a *= opacity_factor(t, p);
+#endif
+#ifdef SHADED
+  if (mode == 0) color.rgb = shade(color.rgb, t, p, to_eye);
+#endif
+#ifdef FOCUS_EFFECTS
+  color = with_effects(color, effects_at(p));
+#endif
+  float alpha = color.a;
+#ifdef CORRECT_CONSTANT
+  alpha = corrected_opacity(color.a, distance_ratio);
+#endif
+  return with_sample(state, row, mode, value, color, alpha, distance_ratio, xray_scale);
+}
 #else
 vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #ifdef WARPED
@@ -122,7 +154,7 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #endif
 #endif
 #else
-  vec4 sample_color = classify_texel(displayed_texel(t));
+  vec4 sample_color = classify_at(t);
 #ifdef MODULATED
   sample_color.a *= opacity_factor(t, p);
 #endif
@@ -208,13 +240,24 @@ void main() {
     vec4 hit = first_surface(ray, first, last, offset);
     if (hit.w > 0.0) gathered = vec4(surface_color(hit.xyz, to_eye), 1.0);
 #else
+#ifdef LOCAL_MODES
+    TwoLevel state = nothing_gathered();
+#endif
     for (int k = first; k <= last; ++k) {
       vec3 p = ray.origin + ((float(k) + 0.5 + offset) * delta) * ray.direction;
+#ifdef LOCAL_MODES
+      state = gather_objects(state, p, to_eye);
+      gathered = state.gathered;
+#else
       gathered = gather(gathered, p, to_eye);
+#endif
 #if defined(EARLY_TERMINATION) && defined(MODE_DVR)
       if (gathered.a >= early_termination) break;
 #endif
     }
+#ifdef LOCAL_MODES
+    gathered = ended_run(state, xray_scale).gathered;
+#endif
 #endif
   }
 #if defined(MODE_MIP) && defined(VOLUMES)

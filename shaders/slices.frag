@@ -17,6 +17,7 @@
 #else
 #include "gpu/volume.glsl"
 #include "gpu/classify.glsl"
+#include "gpu/labels.glsl"
 #include "gpu/classified.glsl"
 #include "generated/warps.glsl"
 #include "gpu/warp.glsl"
@@ -173,7 +174,7 @@ void main() {
   result = vec4(unit, 0.0, 0.0, 1.0);
 #endif
 #else
-  vec4 sample_color = classify_texel(displayed_texel(texture_coordinate));
+  vec4 sample_color = classify_at(texture_coordinate);
 #ifdef MODULATED
   sample_color.a *= opacity_factor(texture_coordinate, object_coordinate);
 #endif

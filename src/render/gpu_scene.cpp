@@ -208,6 +208,8 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
       is_bricked(prepared) ? brick_voxels(scene.plan) * texel_bytes + transfer_bytes : scene.whole_bytes;
   scene.bytes += scene.gradients.bytes;
   scene.bytes += grid_bytes(maps);
+  scene.labels = upload_labels(gl, prepared, progress);
+  scene.bytes += scene.labels.bytes;
   for (const PreparedScene& other : prepared.others) {
     scene.others.push_back(upload(gl, other, progress));
     scene.bytes += scene.others.back().bytes;

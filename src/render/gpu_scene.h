@@ -5,6 +5,7 @@
 #include "render/axis_textures.h"
 #include "render/bricks.h"
 #include "render/gradient_texture.h"
+#include "render/label_textures.h"
 #include "render/prepare.h"
 
 namespace slicelens {
@@ -26,6 +27,7 @@ struct GpuScene {
   GradientTexture gradients;      ///< for shading
   AxisTextures axis;              ///< empty but under pipeline `axis`
   std::vector<gl::Texture> grids; ///< of the maps that are held in grids, in their order
+  LabelTextures labels;           ///< mode `two-level` only
   std::vector<GpuScene> others;   ///< of the volumes after the first
 };
 

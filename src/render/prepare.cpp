@@ -35,12 +35,13 @@ void set_volume(PreparedScene& prepared, Volume volume) {
   prepared.pyramid.clear();
 }
 
-PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer,
-                      std::vector<LoadedVolume> others) {
+PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer, std::vector<LoadedVolume> others,
+                      std::optional<LoadedLabels> labels) {
   if (others.size() != scene.others.size())
     throw UsageError("the scene has " + std::to_string(volume_count(scene)) + " volumes, the data " +
                      std::to_string(1 + others.size()));
   PreparedScene prepared = unprepared(std::move(scene), std::move(volume), std::move(transfer));
+  prepared.labels.loaded = std::move(labels);
   for (std::size_t i = 0; i < others.size(); ++i) {
     prepared.others.push_back(unprepared(scene_of_volume(prepared.scene, i + 1), std::move(others[i].volume),
                                          std::move(others[i].transfer)));
@@ -257,6 +258,7 @@ void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
     }
   }
   prepared.gradient_space = gradient_space_of(scene);
+  prepare_labels(prepared);
   prepare_warps(prepared);
   prepare_effects(prepared);
   prepared.steps = sample_steps(prepared);

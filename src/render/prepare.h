@@ -3,6 +3,7 @@
 
 #include "core/view.h"
 #include "render/footprint.h"
+#include "render/labels.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "slicing/polygon.h"
@@ -61,6 +62,7 @@ struct PreparedScene {
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};
+  PreparedLabels labels;      ///< mode `two-level` only
   FileGeometry file_geometry; ///< of `volume`, which lies where its placement puts it
   /// The volumes after the first, each as a scene of its own under the same view and spacing. The bounds
   /// above are then those of all volumes, in the first one's texture coordinates.
@@ -96,10 +98,11 @@ PreparedScene one_volume(PreparedScene prepared, std::size_t index);
 /// From the first volume's texture coordinates to those of volume `index`: where it is displayed.
 glm::dmat4 own_from_first(const PreparedScene& prepared, std::size_t index);
 
-/// Works out the rest. `others` are the data of scene.others. Throws UsageError where scene and data do not
-/// fit.
+/// Works out the rest. `others` are the data of scene.others, `labels` those of volume.labels. Throws
+/// UsageError where scene and data do not fit.
 PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer,
-                      std::vector<LoadedVolume> others = {});
+                      std::vector<LoadedVolume> others = {},
+                      std::optional<LoadedLabels> labels = std::nullopt);
 
 /// Takes other data for the first volume or, from prepared.others, for one after it. Prepare again.
 void set_volume(PreparedScene& prepared, Volume volume);

@@ -25,6 +25,7 @@ void set_ray_uniforms(const gl::Functions& gl, const gl::Program& program, const
   set_uniform(gl, program, "frame.half_height", static_cast<float>(frame.half_height));
   set_uniform(gl, program, "frame.anchor", static_cast<float>(frame.anchor));
   set_uniform(gl, program, "delta", static_cast<float>(prepared.spacing));
+  set_uniform(gl, program, "xray_scale", static_cast<float>(prepared.xray_scale));
   set_uniform(gl, program, "early_termination", static_cast<float>(prepared.scene.render.early_termination));
   set_uniform(gl, program, "world_from_direction", glm::mat3(prepared.box.world_from_texture));
   const std::vector<CutPlane> shown = cut_planes(prepared);

@@ -35,9 +35,11 @@ struct SharedFunctions {
 #include "lib/combine.glsl"
 #include "lib/composite.glsl"
 #include "lib/jitter.glsl"
+#include "lib/labels.glsl"
 #include "lib/opacity.glsl"
 #include "lib/ray.glsl"
 #include "lib/shade.glsl"
+#include "lib/two_level.glsl"
 };
 
 /// One of several volumes, whatever the type of its voxels.
@@ -243,11 +245,55 @@ struct Tracer : SharedFunctions {
     return vec4(0);
   }
 
+  /// Mode `two-level`: the row of the voxel that holds t.
+  std::size_t label_row(vec3 t) {
+    const int i = this->label_voxel(t.x, dims.x);
+    const int j = this->label_voxel(t.y, dims.y);
+    const int k = this->label_voxel(t.z, dims.z);
+    return prepared.labels.rows[voxel_index(i, j, k)];
+  }
+
+  /// Straight colour and opacity per reference length of a value that is looked up at t.
+  vec4 classified_value(vec3 t, real value) {
+    if (prepared.labels.table.empty())
+      return evaluate(prepared.transfer, value);
+    const LabelRow& row = prepared.labels.table[label_row(t)];
+    vec4 color = evaluate(row.transfer, value);
+    if (row.length_ratio != 1)
+      color.w = this->corrected_opacity(color.w, row.length_ratio);
+    return color;
+  }
+
+  /// One more sample of a ray through objects of which some have a mode of their own.
+  TwoLevel gather_objects(const TwoLevel& state, vec3 p, vec3 to_eye) {
+    const vec3 t = data_point(p);
+    if (is_warped(prepared) && !shows_data(t))
+      return this->ended_run(state, prepared.xray_scale);
+    const std::size_t row = label_row(t);
+    const LabelMode mode = prepared.labels.table[row].mode;
+    const real value = displayed_value(t);
+    // Neither gradient nor light for a largest value, no light for a line integral.
+    vec4 color = classified_value(t, value);
+    if (mode == LabelMode::dvr)
+      color = sample_color(t, p, to_eye);
+    else if (mode == LabelMode::xray)
+      color.w *= opacity_factor(t, p, color.w);
+    color = with_effects(color, focus_at(p));
+    const real alpha = correction == Correction::none ? color.w : this->corrected_opacity(color.w, ratio);
+    return this->with_sample(state, static_cast<int>(row), static_cast<int>(mode), value, color, alpha, ratio,
+                             prepared.xray_scale);
+  }
+
+  /// Of modulate_by_gradient, on an opacity; 1 without it.
+  real opacity_factor(vec3 t, vec3 p, real opacity) {
+    const auto& full = prepared.scene.render.modulate_by_gradient;
+    return full && opacity > 0 ? min(length(world_from_gradient * shown_gradient(t, p)) / *full, 1.0) : 1;
+  }
+
   /// Straight colour and opacity per own reference length.
   vec4 sample_color(vec3 t, vec3 p, vec3 to_eye) {
-    vec4 color = evaluate(prepared.transfer, displayed_value(t));
-    if (const auto& full = prepared.scene.render.modulate_by_gradient; full && color.w > 0)
-      color.w *= min(length(world_from_gradient * shown_gradient(t, p)) / *full, 1.0);
+    vec4 color = classified_value(t, displayed_value(t));
+    color.w *= opacity_factor(t, p, color.w);
     if (prepared.scene.render.shading == Shading::none || color.w == 0)
       return color;
     return vec4(shaded(vec3(color), t, p, to_eye), color.w);
@@ -335,6 +381,19 @@ struct Tracer : SharedFunctions {
     return color;
   }
 
+  /// Mode `two-level`, run by run.
+  vec4 trace_objects(const SharedFunctions::PixelRay& ray, std::int64_t first, std::int64_t last, real offset,
+                     vec3 to_eye, real stop) {
+    TwoLevel state = this->nothing_gathered();
+    for (std::int64_t k = first; k <= last; ++k) {
+      const real s = (static_cast<real>(k) + 0.5 + offset) * prepared.spacing;
+      state = gather_objects(state, ray.origin + s * ray.direction, to_eye);
+      if (stop < 1 && state.gathered.w >= stop)
+        break;
+    }
+    return this->ended_run(state, prepared.xray_scale).gathered;
+  }
+
   /// (x, y) in [−1, 1]², y up; `offset` of the samples, in Δ.
   vec4 trace(const SharedFunctions::RayFrame& frame, bool perspective, real x, real y, real offset) {
     const SharedFunctions::PixelRay ray = this->ray_from_pixel(frame, perspective, x, y);
@@ -361,7 +420,9 @@ struct Tracer : SharedFunctions {
     const auto last = static_cast<std::int64_t>(this->last_sample(interval.y - offset * delta, delta));
     if (mode == Mode::iso)
       return first_surface(ray, first, last, offset, to_eye);
-    const real stop = prepared.scene.render.mode == Mode::dvr ? prepared.scene.render.early_termination : 2;
+    const real stop = composites(mode) ? prepared.scene.render.early_termination : 2;
+    if (has_local_modes(prepared.labels))
+      return trace_objects(ray, first, last, offset, to_eye, stop);
     for (std::int64_t k = first; k <= last; ++k) {
       gathered = gather(gathered,
                         ray.origin + ((static_cast<real>(k) + 0.5 + offset) * delta) * ray.direction, to_eye);

@@ -1,6 +1,7 @@
 #include "render/uniforms.h"
 
 #include "render/grid_textures.h"
+#include "render/label_textures.h"
 #include "render/several_volumes.h"
 #include "render/stack_geometry.h"
 #include "render/tiled_draw.h"
@@ -63,6 +64,11 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     break;
   case Mode::average:
     macros.insert(macros.end(), {"MODE_MIP", "MODE_AVERAGE"});
+    break;
+  case Mode::two_level:
+    macros.insert(macros.end(), {"MODE_DVR", "LABELS"});
+    if (has_local_modes(prepared.labels))
+      macros.emplace_back("LOCAL_MODES");
     break;
   case Mode::iso:
     macros.emplace_back("MODE_ISO");
@@ -218,6 +224,8 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
   else
     set_volumes(gl, program, prepared, scene);
   set_sample_uniforms(gl, program, prepared);
+  if (scene.labels.labels)
+    set_labels(gl, program, scene.labels);
   if (has_highlight(prepared.effects) || has_attenuation(prepared.effects))
     set_struct(gl, program, "effects", prepared.effects);
   if (scene.axis[0])

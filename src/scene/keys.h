@@ -21,6 +21,8 @@ void volume_keys(Visitor& visit, Settings& s) {
   visit.key("component", s.component, "which component of a multi-component volume is shown, from 0");
   visit.key("frame", s.frame, "which frame of a 4D file is shown, from 0");
   visit.key("series", s.series, "which DICOM series of a folder (UID, or a part that only one has)");
+  visit.key("labels", s.labels,
+            "label volume on the same grid, for mode two-level: a file, or a phantom's name");
 }
 
 template <class Visitor, class Settings>
@@ -38,6 +40,18 @@ void transfer_keys(Visitor& visit, Settings& s) {
   visit.key("unit_distance", s.unit_distance,
             "reference length of the opacities in world units (none: the smallest voxel spacing)",
             Range::positive);
+}
+
+template <class Visitor, class Settings>
+void label_keys(Visitor& visit, Settings& s) {
+  visit.key("label", s.label, "its number in volume.labels");
+  visit.key("name", s.name, "for people");
+  visit.key("mode", s.mode,
+            "what a ray's run through it becomes: dvr, mip (its largest value) or xray (its line integral); "
+            "mip and xray: rays and reference");
+  visit.option("transfer", s.transfer, "its own (none: the scene's)",
+               [](auto& v, auto& x) { transfer_keys(v, x); });
+  visit.key("visible", s.visible, "false: it is left out");
 }
 
 template <class Visitor, class Settings>
@@ -87,7 +101,9 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key(
       "mode", s.mode,
       "dvr (emission and absorption), mip (maximum), minip (minimum), average (mean of the values), xray "
-      "(line integral of the opacity) or iso (the first surface of render.isovalue)");
+      "(line integral of the opacity), iso (the first surface of render.isovalue) or two-level (by labels; "
+      "the "
+      "default where volume.labels is given)");
   visit.key("isovalue", s.isovalue,
             "value of the surface of mode iso, data units (none: middle of the data's range)");
   visit.key("modulate_by_gradient", s.modulate_by_gradient,
@@ -269,6 +285,9 @@ void scene_keys(Visitor& visit, Settings& s) {
       "instead of volume, transfer and warp: a list of up to 4 volumes, each with the keys of volume "
       "and a transfer, a warp and a placement of its own",
       [](auto& v, auto& x) { layer_keys(v, x); });
+  visit.list("labels", s.labels,
+             "how each label of volume.labels is shown; others as the scene's own transfer function says",
+             [](auto& v, auto& x) { label_keys(v, x); });
   visit.key(
       "combine", s.combine,
       "how the samples of several volumes become one: mix (side by side in the same place), sum (of the "

@@ -32,9 +32,15 @@ const std::vector<EnumName<Pipeline>>& names_of(Pipeline) {
 }
 
 const std::vector<EnumName<Mode>>& names_of(Mode) {
-  static const std::vector<EnumName<Mode>> names = {{Mode::dvr, "dvr"},     {Mode::mip, "mip"},
-                                                    {Mode::minip, "minip"}, {Mode::average, "average"},
-                                                    {Mode::xray, "xray"},   {Mode::iso, "iso"}};
+  static const std::vector<EnumName<Mode>> names = {
+      {Mode::dvr, "dvr"},   {Mode::mip, "mip"}, {Mode::minip, "minip"},        {Mode::average, "average"},
+      {Mode::xray, "xray"}, {Mode::iso, "iso"}, {Mode::two_level, "two-level"}};
+  return names;
+}
+
+const std::vector<EnumName<LabelMode>>& names_of(LabelMode) {
+  static const std::vector<EnumName<LabelMode>> names = {
+      {LabelMode::dvr, "dvr"}, {LabelMode::mip, "mip"}, {LabelMode::xray, "xray"}};
   return names;
 }
 

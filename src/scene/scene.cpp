@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace slicelens {
 
@@ -98,7 +99,7 @@ void validate_render(const RenderSettings& render) {
     throw UsageError("render.jitter moves samples out of their tile; set render.tiles to [1,1,1]");
   if (render.isovalue && render.mode != Mode::iso)
     throw UsageError("render.isovalue is for mode 'iso'; set render.mode to iso or remove it");
-  if (render.modulate_by_gradient && render.mode != Mode::dvr && render.mode != Mode::xray) {
+  if (render.modulate_by_gradient && !composites(render.mode) && render.mode != Mode::xray) {
     throw UsageError("render.modulate_by_gradient changes opacities, which mode '" + word(render.mode) +
                      "' does not sum; set render.mode to dvr or xray, or remove it");
   }
@@ -375,6 +376,64 @@ void validate_gradients(const Scene& scene) {
   }
 }
 
+/// The table of labels, whether the mode uses it or not.
+void validate_label_table(const Scene& scene) {
+  if (scene.volume.labels && scene.volume.labels->empty())
+    throw UsageError("volume.labels is empty; name a file or a phantom");
+  if (!scene.labels.empty() && !scene.volume.labels)
+    throw UsageError("labels are those of volume.labels, which is not given; name a file or a phantom there");
+  if (scene.labels.size() > max_labels) {
+    throw UsageError("labels has " + std::to_string(scene.labels.size()) + " entries; take at most " +
+                     std::to_string(max_labels) +
+                     ", all other labels are shown as the scene's own transfer "
+                     "function says");
+  }
+  std::set<std::size_t> seen;
+  for (std::size_t i = 0; i < scene.labels.size(); ++i) {
+    const LabelSettings& label = scene.labels[i];
+    const std::string at = "labels[" + std::to_string(i) + "]";
+    if (!seen.insert(label.label).second)
+      throw UsageError(at + ".label: " + std::to_string(label.label) + " has an entry already; keep one");
+    if (!label.transfer)
+      continue;
+    try {
+      validate_transfer(*label.transfer);
+    } catch (const UsageError& error) {
+      throw UsageError(at + "." + error.what());
+    }
+  }
+}
+
+/// Mode `two-level`: where a sample finds its label and what its run can become.
+void validate_labels(const Scene& scene) {
+  validate_label_table(scene);
+  const RenderSettings& render = scene.render;
+  if (render.mode != Mode::two_level)
+    return;
+  const auto refuse = [](const std::string& problem, const std::string& instead) {
+    throw UsageError("mode 'two-level' " + problem + "; set " + instead);
+  };
+  if (!scene.volume.labels)
+    refuse("tells objects apart by a label volume, which is not given", "volume.labels");
+  if (render.classification == Classification::pre) {
+    refuse("classifies each sample by its label, which classification 'pre' has lost",
+           "render.classification to post");
+  }
+  if (render.tiles != std::array<std::size_t, 3>{1, 1, 1} || render.levels != 1)
+    refuse("holds labels in one texture at full resolution",
+           "render.tiles to [1,1,1] and render.levels to 1");
+  if (render.footprint == Footprint::mip)
+    refuse("has labels at one resolution, and means of several objects have none",
+           "render.footprint to point");
+  for (const LabelSettings& label : scene.labels) {
+    if (label.visible && label.mode != LabelMode::dvr && draws_slices(render.pipeline)) {
+      refuse("shows label " + std::to_string(label.label) + " by '" + word(label.mode) +
+                 "', which needs a ray's whole run through it: slices are blended one by one",
+             "render.pipeline to rays or reference, or its mode to dvr");
+    }
+  }
+}
+
 /// What several volumes on one stack of slices can do.
 void validate_several(const Scene& scene) {
   const RenderSettings& render = scene.render;
@@ -395,6 +454,8 @@ void validate_several(const Scene& scene) {
     refuse("have no one value for a cutting plane to show; remove planes, or show one volume");
   if (scene.overlay.stack != 0)
     refuse("have no overlay.stack; set it to 0");
+  if (render.mode == Mode::two_level || !scene.labels.empty())
+    refuse("have no labels in common; set render.mode to another than two-level and remove labels");
   if (render.mode == Mode::average || render.mode == Mode::iso)
     refuse("have no one value to show under mode '" + word(render.mode) + "'; set render.mode to another");
   if (has_effects(scene) && classifies_last(render.mode))
@@ -524,6 +585,7 @@ void validate(const Scene& scene) {
   validate_bricks(scene);
   validate_footprint(scene);
   validate_planes(scene);
+  validate_labels(scene);
   validate_gradients(scene);
   if (scene.crop) {
     for (int axis = 0; axis < 3; ++axis) {

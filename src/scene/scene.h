@@ -25,6 +25,7 @@ struct VolumeSettings {
   std::optional<std::size_t> component = std::nullopt; ///< which one of a multi-component volume
   std::size_t frame = 0;                               ///< of a 4D file
   std::string series;                                  ///< which DICOM series of a folder
+  std::optional<std::string> labels = std::nullopt;    ///< label volume: a phantom's name or a file, as given
 };
 
 /// Section `transfer`. At most one of `preset`, `file` and `points`; none: automatic from the histogram.
@@ -56,7 +57,10 @@ struct CameraSettings {
 };
 
 enum class Pipeline { slices, tessellated, axis, fragment, grid, fixed_function, rays, reference };
-enum class Mode { dvr, mip, minip, average, xray, iso };
+/// `two_level`: a transfer function and a mode for each label (Hauser, Mroz, Bischi and Gröller 2001).
+enum class Mode { dvr, mip, minip, average, xray, iso, two_level };
+/// What a ray's run through one object of a two-level picture becomes.
+enum class LabelMode { dvr, mip, xray };
 enum class Order { back_to_front, front_to_back };
 enum class OpacityCorrection { fragment, frame, none };
 enum class Shading { none, diffuse, phong, tone };
@@ -205,6 +209,18 @@ struct VolumeLayer {
   Placement placement;
 };
 
+/// One entry of `labels`: how the voxels of one label are shown (mode `two-level`).
+struct LabelSettings {
+  std::size_t label = 0; ///< number in the label volume
+  std::string name;      ///< for people
+  LabelMode mode = LabelMode::dvr;
+  std::optional<TransferSettings> transfer = std::nullopt; ///< none: the scene's own
+  bool visible = true;
+};
+
+/// Most entries of `labels`: with the row of all other labels they fill a texture of 8 bits.
+inline constexpr std::size_t max_labels = 255;
+
 /// With several volumes, `volume`, `transfer`, `warp` and `placement` are those of the first one.
 struct Scene {
   std::string title;
@@ -224,6 +240,7 @@ struct Scene {
   Placement placement;
   std::vector<VolumeLayer> others; ///< the volumes after the first
   Combine combine = Combine::mix;
+  std::vector<LabelSettings> labels; ///< of volume.labels; labels that it does not name are the scene's own
 };
 
 /// How many volumes the scene shows: 1 to max_volumes.
@@ -257,6 +274,9 @@ GradientSpace gradient_space_of(const Scene& scene);
 inline bool classifies_last(Mode mode) {
   return mode == Mode::mip || mode == Mode::minip || mode == Mode::average;
 }
+
+/// Whether opacities are composited along the ray.
+inline bool composites(Mode mode) { return mode == Mode::dvr || mode == Mode::two_level; }
 
 /// Whether samples need the gradient of what is shown.
 inline bool uses_gradients(const RenderSettings& render) {

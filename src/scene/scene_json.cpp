@@ -24,6 +24,8 @@ Scene scene_from_json(const std::string& text, const std::string& source,
     reader.finish();
     if (!scene.volume.file && !scene.volume.phantom)
       scene.volume.phantom = "head";
+    if (scene.volume.labels && !has_value(json, "render", "mode"))
+      scene.render.mode = Mode::two_level;
     if (!has_value(json, "render", "pipeline"))
       scene.render.pipeline = default_pipeline(scene);
     use_pipeline_defaults(scene.render, has_value(json, "render", "classification"),

@@ -6,6 +6,7 @@
 #include "image/image_io.h"
 #include "scene/image_scene.h"
 #include "scene/load.h"
+#include "scene/load_labels.h"
 #include "scene/load_warps.h"
 #include "scene/scene_json.h"
 
@@ -30,7 +31,8 @@ std::vector<KeyValue> assignments(const std::vector<std::string>& set) {
 /// the other place is tried second.
 std::vector<fs::path> folders_for(const fs::path& home, const std::vector<KeyValue>& changes) {
   const bool from_command = std::any_of(changes.begin(), changes.end(), [](const KeyValue& c) {
-    return c.key == "volume.file" || (c.key.rfind("volumes", 0) == 0 && c.key.ends_with(".file"));
+    return c.key == "volume.file" || c.key == "volume.labels" ||
+           (c.key.rfind("volumes", 0) == 0 && c.key.ends_with(".file"));
   });
   if (home.empty() || home == ".")
     return {"."};
@@ -42,10 +44,12 @@ std::vector<fs::path> folders_for(const fs::path& home, const std::vector<KeyVal
 void require_hash(const SceneInput& input, const std::string& sha256) {
   if (input.expected_sha256.empty() || sha256.empty() || input.expected_sha256 == sha256)
     return;
-  if (!input.scene.others.empty())
-    throw FileError(input.source, "one of its volumes is not the one that it was rendered from (SHA-256 " +
-                                      sha256 + ", then " + input.expected_sha256 +
-                                      "); name the right one with --set volumes[0].file=…");
+  if (!input.scene.others.empty() || label_file(input.scene, input.folders))
+    throw FileError(
+        input.source,
+        "one of its volumes is not the one that it was rendered from (SHA-256 " + sha256 + ", then " +
+            input.expected_sha256 + "); name the right one with --set " +
+            (input.scene.others.empty() ? "volume.file=… or volume.labels=…" : "volumes[0].file=…"));
   throw FileError(*input.scene.volume.file, "is not the volume that " + input.source +
                                                 " was rendered from (SHA-256 " + sha256.substr(0, 12) +
                                                 "…, then " + input.expected_sha256.substr(0, 12) +
@@ -163,6 +167,10 @@ std::future<std::string> start_hash(const SceneInput& input) {
     volumes.push_back(settings.file ? files_of(source_of(settings, input.folders)) : std::vector<fs::path>{});
     any = any || settings.file;
   }
+  if (const auto labels = label_file(input.scene, input.folders)) {
+    volumes.push_back({*labels});
+    any = true;
+  }
   if (!any)
     return {};
   return std::async(std::launch::async, [volumes] {
@@ -188,10 +196,12 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
   TransferFunction transfer = transfer_of(scene, volume);
   load_warp_files(scene, input.folders, progress);
   require_warp_hashes(input, scene);
+  std::optional<LoadedLabels> labels = load_labels(scene, volume, input.folders, progress);
   std::vector<LoadedVolume> others = load_others(scene, input.folders, progress);
   for (std::size_t i = 0; i < others.size(); ++i) // what load_others has read, and said what was to be said
     load_transfer_file(scene.others[i].transfer, others[i].volume, input.folders, {});
-  return prepare(std::move(scene), std::move(volume), std::move(transfer), std::move(others));
+  return prepare(std::move(scene), std::move(volume), std::move(transfer), std::move(others),
+                 std::move(labels));
 }
 
 std::size_t checked_volume(const Scene& scene, int index) {
@@ -209,6 +219,8 @@ void load_again(PreparedScene& prepared, const SceneInput& input, const Progress
     return scene_to_json(alone, -1);
   };
   Scene scene = input.scene;
+  const bool same_labels = prepared.labels.loaded && text_of(prepared.scene.volume, &Scene::volume) ==
+                                                         text_of(scene.volume, &Scene::volume);
   bool same_warps = volume_count(prepared.scene) == volume_count(scene);
   const std::size_t had = prepared.others.size();
   prepared.others.resize(scene.others.size());
@@ -231,6 +243,13 @@ void load_again(PreparedScene& prepared, const SceneInput& input, const Progress
       scene.others[i].warp = std::move(prepared.scene.others[i].warp);
   } else {
     load_warp_files(scene, input.folders, progress);
+  }
+  if (scene.render.mode == Mode::two_level) {
+    if (same_labels)
+      prepared.labels.loaded->transfers =
+          load_label_transfers(scene, prepared.volume, input.folders, progress);
+    else
+      prepared.labels = {load_labels(scene, prepared.volume, input.folders, progress), {}, {}, {}};
   }
   load_camera_file(scene, input.folders, progress);
   prepared.scene = std::move(scene);

@@ -1,0 +1,36 @@
+// The labels of a scene, ready to be looked up (mode `two-level`: Hauser, Mroz, Bischi and Gröller 2001).
+#pragma once
+
+#include "scene/load_labels.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace slicelens {
+
+struct PreparedScene;
+
+/// How samples of one label, or of all that the table does not name, are shown.
+struct LabelRow {
+  TransferFunction transfer; ///< of opacity 0 where the label is not visible
+  LabelMode mode = LabelMode::dvr;
+  double length_ratio = 1; ///< the scene's reference length as a share of the label's own
+};
+
+/// Row 0 is all labels that the scene's table does not name, row i + 1 its entry i.
+struct PreparedLabels {
+  std::optional<LoadedLabels> loaded;
+  std::vector<std::uint8_t> rows; ///< for each voxel its row; x fastest
+  std::vector<LabelRow> table;    ///< empty under other modes
+  std::vector<std::size_t> named; ///< label numbers that `rows` has been made for
+};
+
+/// Fills prepared.labels from what is loaded. Throws UsageError where labels are missing, are no whole
+/// numbers, or lie on another grid than the volume.
+void prepare_labels(PreparedScene& prepared);
+
+/// Whether a run through any object is more than its samples one by one.
+bool has_local_modes(const PreparedLabels& labels);
+
+} // namespace slicelens
