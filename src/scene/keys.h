@@ -28,6 +28,15 @@ void transfer_keys(Visitor& visit, Settings& s) {
   visit.key("preset", s.preset, "named transfer function (slicelens list presets); excludes points and file");
   visit.key("points", s.points,
             "[[value, r, g, b, opacity], …], value in data units, ascending; excludes preset and file");
+  visit.list("shapes", s.shapes,
+             "a function of value and gradient instead: shapes whose opacities add up; excludes the others",
+             [](auto& v, auto& x) {
+               v.key("value", x.value,
+                     "[a, b, c, d] in data units: nothing below a, rising to b, whole to c, falling to d");
+               v.key("gradient", x.gradient, "the same of the gradient, data units per world unit");
+               v.key("color", x.color, "[r, g, b]", Range::unit);
+               v.key("opacity", x.opacity, "where the shape is whole", Range::unit);
+             });
   visit.key("file", s.file,
             "transfer function of ParaView (.json, .xml), 3D Slicer (.vp, .vp.json) or ImageVis3D (.1dt); "
             "excludes preset and points");

@@ -119,7 +119,10 @@ TransferFunction transfer_of(const Scene& scene, const Volume& volume) {
   TransferFunction transfer;
   if (settings.file)
     throw UsageError("transfer.file " + *settings.file + " has not been read");
-  if (settings.points) {
+  if (!settings.shapes.empty()) {
+    transfer = preset("grey-ramp", volume.min, volume.max); // for what shows single values
+    transfer.name = "shapes";
+  } else if (settings.points) {
     for (const auto& [value, r, g, b, opacity] : *settings.points)
       transfer.points.push_back({value, r, g, b, opacity});
     transfer.name = "points";

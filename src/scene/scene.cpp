@@ -351,7 +351,7 @@ void validate_gradients(const Scene& scene) {
     throw UsageError("render.gradient_sigma must be from 0.3 to 8 voxels of the copy, not " +
                      number_text(render.gradient_sigma));
   }
-  if (!uses_gradients(render))
+  if (!uses_gradients(scene))
     return;
   const bool own_texture =
       render.gradient == Gradient::prefiltered || render.gradient == Gradient::precomputed;
@@ -401,6 +401,30 @@ void validate_several(const Scene& scene) {
     refuse("under mode '" + word(render.mode) +
            "' have a winner each, which highlight and attenuation cannot follow; set "
            "render.mode to dvr or xray");
+}
+
+/// A transfer function of value and gradient.
+void validate_shapes(const Scene& scene) {
+  const TransferSettings& transfer = scene.transfer;
+  if (transfer.shapes.empty())
+    return;
+  if (transfer.preset || transfer.points || transfer.file)
+    throw UsageError("transfer.shapes excludes preset, points and file; keep one");
+  if (transfer.shapes.size() > 256)
+    throw UsageError("transfer.shapes: give at most 256");
+  validate(transfer.shapes);
+  const RenderSettings& render = scene.render;
+  if (render.mode != Mode::dvr && render.mode != Mode::xray) {
+    throw UsageError("transfer.shapes need a gradient, which mode '" + word(render.mode) +
+                     "' does not have; set render.mode to dvr or xray");
+  }
+  if (render.classification == Classification::pre) {
+    throw UsageError(
+        "render.classification 'pre' classifies voxels, which have no gradient yet; set it to post, "
+        "or give transfer.points for transfer.shapes");
+  }
+  if (render.modulate_by_gradient)
+    throw UsageError("transfer.shapes follow the gradient themselves; remove render.modulate_by_gradient");
 }
 
 void validate_placement(const Placement& placement) {
@@ -505,6 +529,7 @@ void validate(const Scene& scene) {
     return;
   }
   validate_placement(scene.placement);
+  validate_shapes(scene);
   validate_volume(scene.volume);
   validate_transfer(scene.transfer);
   if (scene.camera.file)
