@@ -200,24 +200,6 @@ void place(PreparedScene& prepared, const std::optional<glm::dvec3>& middle) {
   volume.origin = at + turned * (steps * placement.scale);
 }
 
-/// The smallest box along the first volume's axes that holds all of them, undeformed: the first one's own
-/// where there is no other.
-Box box_of_all(const PreparedScene& prepared) {
-  if (prepared.others.empty())
-    return prepared.box;
-  Bounds bounds{glm::dvec3(0), glm::dvec3(1)};
-  const glm::dmat4 to_first = texture_from_world(prepared.box);
-  for (const PreparedScene& other : prepared.others) {
-    for (const glm::dvec3& corner : corners(other.box)) {
-      const glm::dvec3 t(to_first * glm::dvec4(corner, 1));
-      bounds.low = glm::min(bounds.low, t);
-      bounds.high = glm::max(bounds.high, t);
-    }
-  }
-  const glm::dmat4 moved = glm::translate(prepared.box.world_from_texture, bounds.low);
-  return {glm::scale(moved, bounds.high - bounds.low)};
-}
-
 /// All that one volume needs but the view. `first`: whose texture coordinates clipping planes are given in.
 void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
   const Scene& scene = prepared.scene;
@@ -260,6 +242,22 @@ void include_others(PreparedScene& prepared) {
 }
 
 } // namespace
+
+Box box_of_all(const PreparedScene& prepared) {
+  if (prepared.others.empty())
+    return prepared.box;
+  Bounds bounds{glm::dvec3(0), glm::dvec3(1)};
+  const glm::dmat4 to_first = texture_from_world(prepared.box);
+  for (const PreparedScene& other : prepared.others) {
+    for (const glm::dvec3& corner : corners(other.box)) {
+      const glm::dvec3 t(to_first * glm::dvec4(corner, 1));
+      bounds.low = glm::min(bounds.low, t);
+      bounds.high = glm::max(bounds.high, t);
+    }
+  }
+  const glm::dmat4 moved = glm::translate(prepared.box.world_from_texture, bounds.low);
+  return {glm::scale(moved, bounds.high - bounds.low)};
+}
 
 void prepare_again(PreparedScene& prepared) {
   place(prepared, std::nullopt);

@@ -4,6 +4,7 @@
 #include "volume/phantom.h"
 
 #include <system_error>
+#include <utility>
 
 namespace slicelens {
 
@@ -77,6 +78,7 @@ TransferFunction transfer_of(const Scene& scene, const Volume& volume) {
   }
   if (settings.unit_distance)
     transfer.unit_distance = settings.unit_distance;
+  transfer = windowed(std::move(transfer), settings.window, settings.level);
   validate(transfer);
   return transfer;
 }
