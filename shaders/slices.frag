@@ -1,5 +1,5 @@
-// One sample of a slice. MODE_DVR: associated colour for blending; MODE_MIP: the value, for GL_MAX; MODE_XRAY: the
-// opacity, for summing.
+// One sample of a slice. MODE_DVR: associated colour for blending; MODE_MIP: the value, for GL_MAX (MODE_MINIP: upside
+// down; MODE_AVERAGE: for summing, and 1 to count); MODE_XRAY: the opacity, for summing.
 //
 // CORRECT_CONSTANT corrects the opacity for one distance ratio; CORRECT_FRAGMENT for the distance along this
 // fragment's own ray (Brunet §3.1). CLASSIFICATION_PRE reads colours that are
@@ -34,7 +34,20 @@ uniform vec3 to_eye_axis;         // world: against the viewing direction
 uniform vec3 eye;                 // world, perspective
 uniform mat4 world_from_texture;
 
+#if defined(JITTER) || defined(MODE_ISO)
+#include "gpu/region.glsl"
+#include "gpu/step.glsl"
+#endif
+#ifdef JITTER
+#include "lib/jitter.glsl"
+uniform float jitter;
+uniform int jitter_seed;
+in vec3 slice_coordinate;
+vec3 object_coordinate;  // where this pixel's sample is
+#else
 in vec3 object_coordinate;
+#endif
+#include "gpu/iso.glsl"
 #ifdef WARP_TESSELLATED
 in vec4 homogeneous_coordinate;
 #endif
@@ -57,9 +70,36 @@ vec3 direction_to_eye(vec3 p) {
 #endif
 }
 
-#ifdef VOLUMES
+#ifdef JITTER
+// Farther from the eye by a part of the slice distance that is the pixel's own.
+void shift_sample() {
+  uvec2 pixel = uvec2(gl_FragCoord.xy);
+  float offset = jitter * pixel_offset(pixel.x, pixel.y, uint(jitter_seed));
+  object_coordinate = slice_coordinate - offset * step_to_eye(slice_coordinate);
+  if (!in_region(object_coordinate)) discard;
+}
+#else
+void shift_sample() {}
+#endif
+
+#if defined(MODE_ISO)
+// The surface between this slice and the one before it.
+void main() {
+  shift_sample();
+  vec3 before = object_coordinate + step_to_eye(object_coordinate);
+  vec3 here_point = shown_point(object_coordinate);
+  vec3 before_point = shown_point(before);
+  if (!in_region(before) || !shows_data(here_point) || !shows_data(before_point)) discard;
+  float here_value = displayed_value(here_point);
+  float before_value = displayed_value(before_point);
+  if ((here_value < isovalue) == (before_value < isovalue)) discard;
+  vec3 p = refined_crossing(before, object_coordinate, before_value, here_value, isovalue);
+  result = vec4(surface_color(p, direction_to_eye(p)), 1.0);
+}
+#elif defined(VOLUMES)
 // Several volumes: the samples of all at this place are one sample.
 void main() {
+  shift_sample();
 #if defined(MODE_MIP)
   result = all_units(object_coordinate);
 #else
@@ -80,6 +120,7 @@ void main() {
 }
 #else
 void main() {
+  shift_sample();
 #if defined(WARP_TESSELLATED)
   vec3 texture_coordinate = homogeneous_coordinate.xyz / homogeneous_coordinate.w;
 #ifdef WARP_SUBDIVIDED
@@ -133,6 +174,9 @@ void main() {
 #endif
 #else
   vec4 sample_color = classify_texel(displayed_texel(texture_coordinate));
+#ifdef MODULATED
+  sample_color.a *= opacity_factor(texture_coordinate, object_coordinate);
+#endif
 #if defined(MODE_XRAY)
 #if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)
   float weight = sample_color.a * sample_ratio();

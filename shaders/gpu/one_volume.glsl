@@ -16,6 +16,9 @@ vec4 own_sample(vec3 first, vec3 to_eye) {
   vec3 p = (own_from_first * vec4(first, 1.0)).xyz;
   vec3 t = texture_from_object(p);
   vec4 color = classify_texel(displayed_texel(t));
+#ifdef MODULATED
+  color.a *= opacity_factor(t, p);
+#endif
 #ifdef SHADED
   color.rgb = shade(color.rgb, t, p, to_eye);
 #endif

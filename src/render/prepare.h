@@ -111,6 +111,9 @@ void set_volume(PreparedScene& prepared, Volume volume);
 /// The same data seen by another camera or with other render settings; nothing is read again.
 void prepare_again(PreparedScene& prepared);
 
+/// Of mode `iso`: render.isovalue, or the middle of the data's range.
+double isovalue_of(const PreparedScene& prepared);
+
 /// Δ/Δ₀: exponent of the opacity correction on the view axis and along rays (docs/pipeline.md).
 double axis_distance_ratio(const PreparedScene& prepared);
 

@@ -31,7 +31,7 @@ gl::Program probe_program(const gl::Functions& gl, const PreparedScene& prepared
   std::vector<std::string> macros = common_macros(prepared);
   if (place)
     macros.emplace_back("PROBE_PLACE");
-  if (prepared.scene.render.shading == Shading::none) { // else gradients are those of the shading
+  if (!uses_gradients(prepared.scene.render)) { // else gradients are those of the shading
     macros.emplace_back("GRADIENTS");
     macros.emplace_back("GRADIENT_CENTRAL");
     if (prepared.gradient_space == GradientSpace::object)

@@ -27,18 +27,6 @@ void set_ray_uniforms(const gl::Functions& gl, const gl::Program& program, const
   set_uniform(gl, program, "delta", static_cast<float>(prepared.spacing));
   set_uniform(gl, program, "early_termination", static_cast<float>(prepared.scene.render.early_termination));
   set_uniform(gl, program, "world_from_direction", glm::mat3(prepared.box.world_from_texture));
-  set_uniform(gl, program, "object_low", glm::vec3(prepared.object_low));
-  set_uniform(gl, program, "object_high", glm::vec3(prepared.object_high));
-  // Under a warp a straight ray leaves and enters the data's half-spaces more than once: gpu/warp.glsl tests
-  // each sample.
-  std::vector<glm::vec4> planes = plane_vectors(prepared.object_clip);
-  if (!is_warped(prepared)) {
-    for (const glm::vec4& plane : plane_vectors(prepared.data_clip))
-      planes.push_back(plane);
-  }
-  set_uniform(gl, program, "clip_count", static_cast<int>(planes.size()));
-  if (!planes.empty())
-    set_uniform(gl, program, "clip_planes", std::span<const glm::vec4>(planes));
   const std::vector<CutPlane> shown = cut_planes(prepared);
   for (std::size_t i = 0; i < shown.size(); ++i)
     set_plane(gl, program, "planes[" + std::to_string(i) + "]", shown[i]);

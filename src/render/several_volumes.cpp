@@ -25,7 +25,7 @@ const std::vector<std::string>& own_names() {
       "forward_gradient", "central_gradient", "shown_gradient",
       // gpu/light.glsl
       "world_from_gradient", "to_light", "ambient", "diffuse", "specular", "power", "cool", "warm",
-      "two_sided", "shade",
+      "two_sided", "shade", "opacity_factor", "full_gradient",
       // gpu/one_volume.glsl
       "own_from_first", "length_ratio", "unit_from_value", "own_sample", "own_unit", "own_color"};
   return names;
@@ -117,8 +117,11 @@ double length_ratio(const PreparedScene& prepared, std::size_t index) {
   return prepared.unit_distance / volume_at(prepared, index).unit_distance;
 }
 
-glm::dvec2 several_unit_from_value(const Volume& volume) {
+glm::dvec2 several_unit_from_value(const PreparedScene& prepared) {
+  const Volume& volume = prepared.volume;
   const double scale = 254.0 / 255 / (volume.max > volume.min ? volume.max - volume.min : 1);
+  if (prepared.scene.render.mode == Mode::minip)
+    return {-scale, 1 + scale * volume.min};
   return {scale, 1.0 / 255 - scale * volume.min};
 }
 
@@ -141,7 +144,7 @@ void set_volumes(const gl::Functions& gl, const gl::Program& program, const Prep
     set_volume_uniforms(gl, uniforms, volume, textures, units);
     set_uniform(gl, uniforms, "own_from_first", glm::mat4(own_from_first(prepared, i)));
     set_uniform(gl, uniforms, "length_ratio", static_cast<float>(length_ratio(prepared, i)));
-    set_uniform(gl, uniforms, "unit_from_value", glm::vec2(several_unit_from_value(volume.volume)));
+    set_uniform(gl, uniforms, "unit_from_value", glm::vec2(several_unit_from_value(volume)));
   }
 }
 

@@ -120,6 +120,8 @@ Json parse_text(const std::string& text, const std::string& source) {
     }
     throw UsageError(source + ": not valid JSON at line " + std::to_string(line) + ", column " +
                      std::to_string(column) + "; look for a missing comma, quote or bracket");
+  } catch (const Json::exception&) { // 1e999
+    throw UsageError(source + ": holds a number beyond the range of doubles");
   }
 }
 

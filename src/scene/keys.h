@@ -82,8 +82,22 @@ void render_keys(Visitor& visit, Settings& s) {
             "where the map is evaluated: slices (no warp), tessellated (per vertex), axis (in three 1D "
             "textures), fragment, grid (in a 3D texture), "
             "fixed-function (per vertex, without shaders), rays (GPU), or reference (CPU, double)");
-  visit.key("mode", s.mode,
-            "dvr (emission and absorption), mip (maximum) or xray (line integral of the opacity)");
+  visit.key(
+      "mode", s.mode,
+      "dvr (emission and absorption), mip (maximum), minip (minimum), average (mean of the values), xray "
+      "(line integral of the opacity) or iso (the first surface of render.isovalue)");
+  visit.key("isovalue", s.isovalue,
+            "value of the surface of mode iso, data units (none: middle of the data's range)");
+  visit.key("modulate_by_gradient", s.modulate_by_gradient,
+            "gradient in data units per world unit below which opacities are lowered in proportion, so that "
+            "only boundaries stay (none: opacities as they are)",
+            Range::positive);
+  visit.key(
+      "jitter", s.jitter,
+      "shifts all samples of a pixel along its ray by a random part of this many slice distances, which "
+      "turns rings into noise; 0: off",
+      Range::unit);
+  visit.key("jitter_seed", s.jitter_seed, "of these random parts");
   visit.key("xray_scale", s.xray_scale,
             "grey shown for a line integral of one (none: one over the box diagonal)", Range::positive);
   visit.key("size", s.size, "picture [width, height] in pixels");
@@ -251,6 +265,11 @@ void scene_keys(Visitor& visit, Settings& s) {
   visit.list("planes", s.planes, "cutting planes that show the displayed volume, opaque",
              [](auto& v, auto& x) { plane_keys(v, x); });
   visit.list("clip", s.clip, "clipping planes", [](auto& v, auto& x) { clip_keys(v, x); });
+  visit.option("crop", s.crop, "a box of the volume that is kept", [](auto& v, auto& x) {
+    v.key("low", x.low, "its lowest corner, texture coordinates");
+    v.key("high", x.high, "its highest corner");
+    v.key("space", x.space, "texture (the data) or object (the displayed volume)");
+  });
   visit.volumes(
       "volumes", s,
       "instead of volume, transfer and warp: a list of up to 4 volumes, each with the keys of volume "

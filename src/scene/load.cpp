@@ -57,7 +57,7 @@ Volume load_volume(const VolumeSettings& settings, const std::vector<fs::path>& 
   }
   if (volume.non_finite > 0) {
     report_warning(progress, *settings.file + ": " + std::to_string(volume.non_finite) +
-                                 " voxels are NaN or infinite and are drawn as the smallest value");
+                                 " voxels are NaN or infinite and are drawn as empty");
   }
   return volume;
 }

@@ -54,23 +54,48 @@ void validate_render(const RenderSettings& render) {
   if (render.order == Order::front_to_back && !draws_slices(render.pipeline)) {
     throw UsageError("render.order front-to-back is for slices; rays always go front to back");
   }
-  if (render.mode == Mode::xray && render.target == Target::rgba8 && draws_slices(render.pipeline)) {
-    throw UsageError("mode 'xray' sums contributions far below 1/255, which target 'rgba8' rounds to "
+  if ((render.mode == Mode::xray || render.mode == Mode::average) && render.target == Target::rgba8 &&
+      draws_slices(render.pipeline)) {
+    throw UsageError("mode '" + word(render.mode) +
+                     "' sums contributions far below 1/255, which target 'rgba8' rounds to "
                      "nothing; use rgba16f or rgba32f");
   }
+  if (render.mode == Mode::iso && (render.levels > 1 || render.footprint == Footprint::mip ||
+                                   render.tiles != std::array<std::size_t, 3>{1, 1, 1})) {
+    throw UsageError(
+        "mode 'iso' follows one value at full resolution in one texture; set render.tiles to [1,1,1], "
+        "render.levels to 1 and render.footprint to point");
+  }
+  if (render.jitter > 0 && render.tiles != std::array<std::size_t, 3>{1, 1, 1})
+    throw UsageError("render.jitter moves samples out of their tile; set render.tiles to [1,1,1]");
+  if (render.isovalue && render.mode != Mode::iso)
+    throw UsageError("render.isovalue is for mode 'iso'; set render.mode to iso or remove it");
+  if (render.modulate_by_gradient && render.mode != Mode::dvr && render.mode != Mode::xray) {
+    throw UsageError("render.modulate_by_gradient changes opacities, which mode '" + word(render.mode) +
+                     "' does not sum; set render.mode to dvr or xray, or remove it");
+  }
+  const bool meshed = render.pipeline == Pipeline::tessellated || render.pipeline == Pipeline::fixed_function;
+  if (meshed && (render.mode == Mode::iso || render.jitter > 0)) {
+    throw UsageError(std::string(render.mode == Mode::iso ? "mode 'iso'" : "render.jitter") +
+                     " looks off the slice, where pipeline '" + word(render.pipeline) +
+                     "' has no coordinates; take slices, fragment, rays or reference");
+  }
+  if (render.jitter_seed > 0x7fffffff)
+    throw UsageError("render.jitter_seed must be at most 2147483647");
   if (render.mode == Mode::xray && render.shading != Shading::none) {
     throw UsageError("mode 'xray' shows opacity, which has no shading; set render.shading to none");
   }
-  if (render.mode == Mode::mip && render.shading != Shading::none) {
-    throw UsageError("mode 'mip' classifies one value, which has no gradient; set render.shading to none");
+  if (classifies_last(render.mode) && render.shading != Shading::none) {
+    throw UsageError("mode '" + word(render.mode) +
+                     "' classifies one value, which has no gradient; set render.shading to none");
   }
 }
 
 /// Voxels that are classified once cannot be corrected, lit or compared later (docs/pipeline.md).
 void validate_pre_classification(const RenderSettings& render, const CameraSettings& camera) {
-  if (render.mode == Mode::mip) {
-    throw UsageError("render.classification 'pre' holds colours, of which mode 'mip' cannot take the largest "
-                     "value; set render.classification to post");
+  if (classifies_last(render.mode) || render.mode == Mode::iso) {
+    throw UsageError("render.classification 'pre' holds colours, in which mode '" + word(render.mode) +
+                     "' finds no value; set render.classification to post");
   }
   if (render.shading != Shading::none) {
     throw UsageError("render.classification 'pre' holds colours, which have no gradient to shade with; set "
@@ -133,6 +158,12 @@ void validate_effects(const Scene& scene) {
     throw UsageError("render.classification 'pre' holds colours whose opacity is corrected already, which " +
                      section + " would change too late; set render.classification to post");
   }
+  if (render.mode == Mode::average) {
+    throw UsageError("mode 'average' has no one sample for " + section +
+                     " to follow; set render.mode to another or remove it");
+  }
+  if (render.mode == Mode::iso && scene.attenuation.function != AttenuationFunction::off)
+    throw UsageError("mode 'iso' shows an opaque surface, which attenuation would open; remove it");
   (void)focus_effects(scene.highlight, scene.attenuation, focus_region(scene.warp));
 }
 
@@ -284,11 +315,15 @@ bool carries_gradients(const Warp& warp) {
 
 void validate_gradients(const Scene& scene) {
   const RenderSettings& render = scene.render;
+  if (render.modulate_by_gradient && render.classification == Classification::pre) {
+    throw UsageError("render.classification 'pre' holds colours, which have no gradient to modulate by; set "
+                     "render.classification to post or remove render.modulate_by_gradient");
+  }
   if (render.gradient_sigma < 0.3 || render.gradient_sigma > 8) {
     throw UsageError("render.gradient_sigma must be from 0.3 to 8 voxels of the copy, not " +
                      number_text(render.gradient_sigma));
   }
-  if (render.shading == Shading::none)
+  if (!uses_gradients(render))
     return;
   const bool own_texture =
       render.gradient == Gradient::prefiltered || render.gradient == Gradient::precomputed;
@@ -353,8 +388,11 @@ void validate_several(const Scene& scene) {
     refuse("have no one value for a cutting plane to show; remove planes, or show one volume");
   if (scene.overlay.stack != 0)
     refuse("have no overlay.stack; set it to 0");
-  if (has_effects(scene) && render.mode == Mode::mip)
-    refuse("under mode 'mip' have a winner each, which highlight and attenuation cannot follow; set "
+  if (render.mode == Mode::average || render.mode == Mode::iso)
+    refuse("have no one value to show under mode '" + word(render.mode) + "'; set render.mode to another");
+  if (has_effects(scene) && classifies_last(render.mode))
+    refuse("under mode '" + word(render.mode) +
+           "' have a winner each, which highlight and attenuation cannot follow; set "
            "render.mode to dvr or xray");
 }
 
@@ -494,6 +532,12 @@ void validate(const Scene& scene) {
   validate_footprint(scene);
   validate_planes(scene);
   validate_gradients(scene);
+  if (scene.crop) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(scene.crop->low[axis] < scene.crop->high[axis]))
+        throw UsageError("crop.low must be below crop.high on every axis");
+    }
+  }
   for (const ClipSettings& plane : scene.clip) {
     if (glm::length(plane.normal) == 0)
       throw UsageError("clip: a plane's normal is the zero vector; give a direction");

@@ -54,7 +54,7 @@ struct CameraSettings {
 };
 
 enum class Pipeline { slices, tessellated, axis, fragment, grid, fixed_function, rays, reference };
-enum class Mode { dvr, mip, xray };
+enum class Mode { dvr, mip, minip, average, xray, iso };
 enum class Order { back_to_front, front_to_back };
 enum class OpacityCorrection { fragment, frame, none };
 enum class Shading { none, diffuse, phong, tone };
@@ -83,7 +83,14 @@ struct RenderSettings {
   Mode mode = Mode::dvr;
   std::optional<double> xray_scale = std::nullopt; ///< none: one over the box diagonal in Δ₀
   std::array<std::size_t, 2> size{512, 512};
-  double spacing = 1; ///< in units of h
+  std::optional<double> isovalue =
+      std::nullopt; ///< of mode iso, data units; none: middle of the data's range
+  /// Gradient, in data units per world unit, from which on opacities are the transfer function's; below they
+  /// are lowered in proportion (Levoy 1988). None: never.
+  std::optional<double> modulate_by_gradient = std::nullopt;
+  double jitter = 0;           ///< of the samples of each pixel along its ray, in slice distances: 0 to 1
+  std::size_t jitter_seed = 1; ///< of the pixels' offsets
+  double spacing = 1;          ///< in units of h
   Order order = Order::back_to_front;
   OpacityCorrection opacity_correction = OpacityCorrection::fragment;
   Shading shading = Shading::none;
@@ -130,6 +137,13 @@ enum class ClipSpace { texture, object };
 struct ClipSettings {
   glm::dvec3 point{0.5};      ///< texture coordinates
   glm::dvec3 normal{0, 1, 0}; ///< world space, any length but zero
+  ClipSpace space = ClipSpace::texture;
+};
+
+/// Section `crop`: the part of the volume that is kept.
+struct CropSettings {
+  glm::dvec3 low{0}; ///< texture coordinates
+  glm::dvec3 high{1};
   ClipSpace space = ClipSpace::texture;
 };
 
@@ -206,6 +220,7 @@ struct Scene {
   RenderSettings render;
   LightSettings light;
   std::vector<ClipSettings> clip;
+  std::optional<CropSettings> crop;
   std::vector<Warp> warp; ///< in forward order (docs/pipeline.md)
   Highlight highlight;
   Attenuation attenuation;
@@ -243,6 +258,16 @@ bool draws_slices(Pipeline pipeline);
 /// render.gradient_space; where that is not given, as the paper of the first warp did: LaMar's and Cohen's
 /// warps in the data, all others in object space (Brunet, Nowak and Gleicher 2006, eq. 1).
 GradientSpace gradient_space_of(const Scene& scene);
+
+/// Whether a mode shows one value of each ray, which is classified at the end.
+inline bool classifies_last(Mode mode) {
+  return mode == Mode::mip || mode == Mode::minip || mode == Mode::average;
+}
+
+/// Whether samples need the gradient of what is shown.
+inline bool uses_gradients(const RenderSettings& render) {
+  return render.shading != Shading::none || render.modulate_by_gradient.has_value();
+}
 
 /// Whether the scene highlights or attenuates anything.
 bool has_effects(const Scene& scene);

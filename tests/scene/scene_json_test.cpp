@@ -151,6 +151,16 @@ TEST_CASE("changes by --set reach every key and one alternative removes the othe
   CHECK(contains(refusal("{}", {parse_assignment("clip[3].point=[0,0,0]")}), "clip"));
 }
 
+TEST_CASE("bytes that are no UTF-8 and numbers beyond doubles are refused or kept as text, never worse") {
+  CHECK(contains(refusal("{}", {{"render.spacing", "0\xdf.6"}}), "render.spacing"));
+  CHECK(contains(refusal("{\"render\":{\"spacing\":1e999}}"), "beyond the range"));
+  CHECK(contains(refusal("{}", {{"render.spacing", "1e999"}}), "render.spacing"));
+  // A file's name need not be UTF-8; the scene's text has U+FFFD in its place.
+  const Scene scene = scene_from_json("{}", "s.json", {{"volume.file", "a\xff.nrrd"}});
+  CHECK(*scene.volume.file == "a\xff.nrrd");
+  CHECK(contains(scene_to_json(scene), "\\ufffd"));
+}
+
 TEST_CASE("every key has a help text") {
   const auto keys = list_scene_keys();
   CHECK(keys.size() > 40);
