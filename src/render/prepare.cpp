@@ -282,7 +282,39 @@ Box box_of_all(const PreparedScene& prepared) {
   return {glm::scale(moved, bounds.high - bounds.low)};
 }
 
+namespace {
+
+/// A volume of colours is drawn in them, as voxels that are classified already.
+void draw_own_colors(PreparedScene& prepared) {
+  bool colored = false;
+  for (std::size_t i = 0; i < volume_count(prepared); ++i)
+    colored = colored || !volume_at(prepared, i).volume.colors.rgba.empty();
+  if (!colored)
+    return;
+  const std::string instead = "; or choose one component with volume.component";
+  if (volume_count(prepared) > 1)
+    throw UsageError("several volumes are combined after classification, and one of these is a volume of "
+                     "colours; show it alone" +
+                     instead);
+  if (prepared.scene.overlay.legend)
+    throw UsageError(
+        "overlay.legend shows a transfer function, and the volume has colours of its own; set it "
+        "to false" +
+        instead);
+  prepared.scene.render.classification = Classification::pre;
+  try {
+    validate(prepared.scene);
+  } catch (const UsageError& error) {
+    throw UsageError("a volume of colours is always drawn as render.classification 'pre' (volume.component "
+                     "shows one component instead): " +
+                     std::string(error.what()));
+  }
+}
+
+} // namespace
+
 void prepare_again(PreparedScene& prepared) {
+  draw_own_colors(prepared);
   place(prepared, std::nullopt);
   prepared.box = box_of(prepared.volume);
   double h = smallest_spacing(prepared.volume);

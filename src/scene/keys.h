@@ -18,7 +18,9 @@ void volume_keys(Visitor& visit, Settings& s) {
   visit.key("type", s.type, "scalar type of a headerless raw file: uint8 … float64");
   visit.key("spacing", s.spacing, "voxel spacing [x,y,z] of a headerless raw file", Range::positive);
   visit.endian("endian", s.big_endian, "byte order of a headerless raw file: little or big");
-  visit.key("component", s.component, "which component of a multi-component volume is shown, from 0");
+  visit.key("component", s.component,
+            "which component of a multi-component volume is shown, from 0 (none: RGB and RGBA of uint8 or "
+            "uint16 as colours)");
   visit.key("frame", s.frame, "which frame of a 4D file is shown, from 0");
   visit.key("series", s.series, "which DICOM series of a folder (UID, or a part that only one has)");
 }

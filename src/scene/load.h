@@ -21,7 +21,7 @@ std::filesystem::path resolve_file(const std::string& file, const std::vector<st
 VolumeSource source_of(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders);
 
 /// Reads the file or makes the phantom. The result has one component: several need `volume.component`, or a
-/// UsageError says so.
+/// UsageError says so. RGB and RGBA without volume.component become luminances with colours (with_luminance).
 Volume load_volume(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders,
                    const Progress& progress);
 
