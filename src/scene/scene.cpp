@@ -375,6 +375,27 @@ void validate_gradients(const Scene& scene) {
   }
 }
 
+/// Smallest side of a picture that has room for lettering, in pixels.
+constexpr std::size_t smallest_annotated = 64;
+
+void validate_annotations(const Scene& scene) {
+  const auto& size = scene.render.size;
+  const std::size_t legends = smallest_annotated * volume_count(scene);
+  if (scene.overlay.legend && std::min(size[0], size[1]) < legends) {
+    throw UsageError("overlay.legend of " + std::to_string(volume_count(scene)) +
+                     " volume(s) needs a picture of at least " + std::to_string(legends) +
+                     " pixels on each side; raise render.size");
+  }
+  if (is_annotated(scene.overlay) && std::min(size[0], size[1]) < smallest_annotated) {
+    throw UsageError("overlay.scale_bar and labels need a picture of at least " +
+                     std::to_string(smallest_annotated) + " pixels on each side; raise render.size");
+  }
+  if (scene.overlay.legend && scene.render.mode == Mode::xray) {
+    throw UsageError("overlay.legend shows the transfer function's colours, which mode 'xray' does not; set "
+                     "it to false");
+  }
+}
+
 /// What several volumes on one stack of slices can do.
 void validate_several(const Scene& scene) {
   const RenderSettings& render = scene.render;
@@ -437,6 +458,10 @@ void validate_placement(const Placement& placement) {
 }
 
 } // namespace
+
+bool is_annotated(const OverlaySettings& overlay) {
+  return overlay.legend || overlay.scale_bar || overlay.labels;
+}
 
 Scene scene_of_volume(const Scene& scene, std::size_t index) {
   Scene one = scene;
@@ -512,6 +537,14 @@ void validate(const OverlaySettings& overlay) {
     throw UsageError("overlay.landmarks must be a radius of at most 1000 pixels, not " +
                      number_text(overlay.landmarks));
   }
+  if (overlay.stack != 0 && is_annotated(overlay)) {
+    throw UsageError("overlay.stack shows the slices from the side, where legend, scale_bar and labels would "
+                     "be wrong; set them to false, or overlay.stack to 0");
+  }
+  if (overlay.unit && overlay.unit->size() > max_unit_letters) {
+    throw UsageError("overlay.unit '" + *overlay.unit + "' is too long; give at most " +
+                     std::to_string(max_unit_letters) + " letters");
+  }
 }
 
 void validate(const Scene& scene) {
@@ -519,6 +552,7 @@ void validate(const Scene& scene) {
     if (volume_count(scene) > max_volumes)
       throw UsageError("volumes: at most " + std::to_string(max_volumes) + " can be shown at once");
     validate_several(scene);
+    validate_annotations(scene);
     for (std::size_t i = 0; i < volume_count(scene); ++i) {
       try {
         validate(scene_of_volume(scene, i));
@@ -544,6 +578,7 @@ void validate(const Scene& scene) {
     throw UsageError("light.direction is the zero vector; give a direction");
   }
   validate(scene.overlay);
+  validate_annotations(scene);
   validate_warps(scene);
   validate_effects(scene);
   validate_bricks(scene);

@@ -38,6 +38,8 @@ struct TransferSettings {
   std::optional<std::string> map = std::nullopt;      ///< of a file that holds several
   std::optional<glm::dvec2> range = std::nullopt;     ///< onto which the points of a file are stretched
   std::optional<double> unit_distance = std::nullopt; ///< Δ₀, world units; none: h
+  std::optional<double> window = std::nullopt;        ///< width of its values, data units; none: its own
+  std::optional<double> level = std::nullopt;         ///< their middle, data units; none: its own
 };
 
 enum class ProjectionName { orthographic, perspective };
@@ -163,7 +165,10 @@ struct PlaneSettings {
 
 enum class Wireframe { none, segments, triangles };
 
-/// Section `overlay`: lines and false colours drawn over the picture.
+/// Most letters of overlay.unit.
+inline constexpr std::size_t max_unit_letters = 8;
+
+/// Section `overlay`: lines, false colours and lettering drawn over the picture.
 struct OverlaySettings {
   Wireframe wireframe = Wireframe::none;
   bool outline = false;
@@ -173,6 +178,11 @@ struct OverlaySettings {
   double stack =
       0; ///< volumes only: degrees the camera goes aside to show the slices themselves; 0: the volume
   double landmarks = 0; ///< volumes only: radius in pixels of the circles around landmarks; 0: none
+  // Volumes only (render/annotations.h).
+  bool legend = false;
+  bool scale_bar = false;
+  bool labels = false;
+  std::optional<std::string> unit = std::nullopt; ///< behind lengths; none: what the format says
 };
 
 /// Section `pick`.
@@ -279,6 +289,9 @@ Pipeline default_pipeline(const Scene& scene);
 /// pre, target rgba8 and opacity correction frame.
 void use_pipeline_defaults(RenderSettings& render, bool classification_given, bool target_given,
                            bool correction_given);
+
+/// Whether a legend, a scale bar or labels are drawn.
+bool is_annotated(const OverlaySettings& overlay);
 
 /// Throws UsageError naming the key.
 void validate(const OverlaySettings& overlay);
