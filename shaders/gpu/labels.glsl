@@ -1,4 +1,4 @@
-// Classification of a sample: by the transfer function, or with LABELS by that of the object in whose voxel it lies.
+// LABELS: classification of a sample by the transfer function of the object in whose voxel it lies.
 
 #ifdef LABELS
 #include "lib/labels.glsl"
@@ -29,6 +29,4 @@ vec4 classify_row(int row, float value) {
 }
 
 vec4 classify_at(vec3 t) { return classify_row(label_row(t), displayed_value(t)); }
-#else
-vec4 classify_at(vec3 t) { return classify_texel(displayed_texel(t)); }
 #endif

@@ -213,24 +213,6 @@ void place(PreparedScene& prepared, const std::optional<glm::dvec3>& middle) {
   volume.origin = at + turned * (steps * placement.scale);
 }
 
-/// The smallest box along the first volume's axes that holds all of them, undeformed: the first one's own
-/// where there is no other.
-Box box_of_all(const PreparedScene& prepared) {
-  if (prepared.others.empty())
-    return prepared.box;
-  Bounds bounds{glm::dvec3(0), glm::dvec3(1)};
-  const glm::dmat4 to_first = texture_from_world(prepared.box);
-  for (const PreparedScene& other : prepared.others) {
-    for (const glm::dvec3& corner : corners(other.box)) {
-      const glm::dvec3 t(to_first * glm::dvec4(corner, 1));
-      bounds.low = glm::min(bounds.low, t);
-      bounds.high = glm::max(bounds.high, t);
-    }
-  }
-  const glm::dmat4 moved = glm::translate(prepared.box.world_from_texture, bounds.low);
-  return {glm::scale(moved, bounds.high - bounds.low)};
-}
-
 /// All that one volume needs but the view. `first`: whose texture coordinates clipping planes are given in.
 void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
   const Scene& scene = prepared.scene;
@@ -286,7 +268,55 @@ void include_others(PreparedScene& prepared) {
 
 } // namespace
 
+Box box_of_all(const PreparedScene& prepared) {
+  if (prepared.others.empty())
+    return prepared.box;
+  Bounds bounds{glm::dvec3(0), glm::dvec3(1)};
+  const glm::dmat4 to_first = texture_from_world(prepared.box);
+  for (const PreparedScene& other : prepared.others) {
+    for (const glm::dvec3& corner : corners(other.box)) {
+      const glm::dvec3 t(to_first * glm::dvec4(corner, 1));
+      bounds.low = glm::min(bounds.low, t);
+      bounds.high = glm::max(bounds.high, t);
+    }
+  }
+  const glm::dmat4 moved = glm::translate(prepared.box.world_from_texture, bounds.low);
+  return {glm::scale(moved, bounds.high - bounds.low)};
+}
+
+namespace {
+
+/// A volume of colours is drawn in them, as voxels that are classified already.
+void draw_own_colors(PreparedScene& prepared) {
+  bool colored = false;
+  for (std::size_t i = 0; i < volume_count(prepared); ++i)
+    colored = colored || !volume_at(prepared, i).volume.colors.rgba.empty();
+  if (!colored)
+    return;
+  const std::string instead = "; or choose one component with volume.component";
+  if (volume_count(prepared) > 1)
+    throw UsageError("several volumes are combined after classification, and one of these is a volume of "
+                     "colours; show it alone" +
+                     instead);
+  if (prepared.scene.overlay.legend)
+    throw UsageError(
+        "overlay.legend shows a transfer function, and the volume has colours of its own; set it "
+        "to false" +
+        instead);
+  prepared.scene.render.classification = Classification::pre;
+  try {
+    validate(prepared.scene);
+  } catch (const UsageError& error) {
+    throw UsageError("a volume of colours is always drawn as render.classification 'pre' (volume.component "
+                     "shows one component instead): " +
+                     std::string(error.what()));
+  }
+}
+
+} // namespace
+
 void prepare_again(PreparedScene& prepared) {
+  draw_own_colors(prepared);
   place(prepared, std::nullopt);
   prepared.box = box_of(prepared.volume);
   double h = smallest_spacing(prepared.volume);

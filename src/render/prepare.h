@@ -92,6 +92,10 @@ inline const PreparedScene& volume_at(const PreparedScene& prepared, std::size_t
   return index == 0 ? prepared : prepared.others[index - 1];
 }
 
+/// The smallest box along the first volume's axes that holds all of them, undeformed: the first one's own
+/// where there is no other. The camera looks at its centre.
+Box box_of_all(const PreparedScene& prepared);
+
 /// Volume `index` alone, seen as in the whole. Moves the data out of `prepared`.
 PreparedScene one_volume(PreparedScene prepared, std::size_t index);
 

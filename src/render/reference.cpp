@@ -292,7 +292,10 @@ struct Tracer : SharedFunctions {
 
   /// Straight colour and opacity per own reference length.
   vec4 sample_color(vec3 t, vec3 p, vec3 to_eye) {
-    vec4 color = classified_value(t, displayed_value(t));
+    const auto& shapes = prepared.scene.transfer.shapes;
+    vec4 color = shapes.empty() ? classified_value(t, displayed_value(t))
+                                : evaluate(shapes, displayed_value(t),
+                                           length(world_from_gradient * shown_gradient(t, p)));
     color.w *= opacity_factor(t, p, color.w);
     if (prepared.scene.render.shading == Shading::none || color.w == 0)
       return color;
@@ -485,7 +488,7 @@ SharedFunctions::RayFrame shared_frame(const PreparedScene& prepared) {
 template <class T>
 std::optional<SmoothCopy> smooth_voxels(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
-  if (!uses_gradients(render) || render.gradient != Gradient::prefiltered)
+  if (!uses_gradients(prepared.scene) || render.gradient != Gradient::prefiltered)
     return std::nullopt;
   const Tracer<T> voxels(prepared, nullptr, nullptr);
   const auto dims = reduced_dims(prepared.volume.dims, reduction_of(render.gradient_resolution));

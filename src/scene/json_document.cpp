@@ -32,7 +32,7 @@ struct Alternatives {
 const std::vector<Alternatives>& alternatives() {
   static const std::vector<Alternatives> groups = {
       {"volume", {{"file"}, {"phantom"}}},
-      {"transfer", {{"preset"}, {"points"}, {"file", "map", "range"}}},
+      {"transfer", {{"preset"}, {"points"}, {"shapes"}, {"file", "map", "range"}}},
       {"camera", {{"position"}, {"azimuth", "elevation", "roll"}, {"file"}}},
       {"image", {{"file"}, {"checkerboard"}, {"testcard"}}},
   };

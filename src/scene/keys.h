@@ -18,7 +18,9 @@ void volume_keys(Visitor& visit, Settings& s) {
   visit.key("type", s.type, "scalar type of a headerless raw file: uint8 … float64");
   visit.key("spacing", s.spacing, "voxel spacing [x,y,z] of a headerless raw file", Range::positive);
   visit.endian("endian", s.big_endian, "byte order of a headerless raw file: little or big");
-  visit.key("component", s.component, "which component of a multi-component volume is shown, from 0");
+  visit.key("component", s.component,
+            "which component of a multi-component volume is shown, from 0 (none: RGB and RGBA of uint8 or "
+            "uint16 as colours)");
   visit.key("frame", s.frame, "which frame of a 4D file is shown, from 0");
   visit.key("series", s.series, "which DICOM series of a folder (UID, or a part that only one has)");
   visit.key("labels", s.labels,
@@ -30,6 +32,15 @@ void transfer_keys(Visitor& visit, Settings& s) {
   visit.key("preset", s.preset, "named transfer function (slicelens list presets); excludes points and file");
   visit.key("points", s.points,
             "[[value, r, g, b, opacity], …], value in data units, ascending; excludes preset and file");
+  visit.list("shapes", s.shapes,
+             "a function of value and gradient instead: shapes whose opacities add up; excludes the others",
+             [](auto& v, auto& x) {
+               v.key("value", x.value,
+                     "[a, b, c, d] in data units: nothing below a, rising to b, whole to c, falling to d");
+               v.key("gradient", x.gradient, "the same of the gradient, data units per world unit");
+               v.key("color", x.color, "[r, g, b]", Range::unit);
+               v.key("opacity", x.opacity, "where the shape is whole", Range::unit);
+             });
   visit.key("file", s.file,
             "transfer function of ParaView (.json, .xml), 3D Slicer (.vp, .vp.json) or ImageVis3D (.1dt); "
             "excludes preset and points");
@@ -40,6 +51,12 @@ void transfer_keys(Visitor& visit, Settings& s) {
   visit.key("unit_distance", s.unit_distance,
             "reference length of the opacities in world units (none: the smallest voxel spacing)",
             Range::positive);
+  visit.key(
+      "window", s.window,
+      "width of the range of values, in data units, onto which the function is stretched from its first "
+      "point to its last (none: its own)",
+      Range::positive);
+  visit.key("level", s.level, "the middle of that range, in data units (none: its own)");
 }
 
 template <class Visitor, class Settings>
@@ -246,6 +263,14 @@ void scene_overlay_keys(Visitor& visit, Settings& s) {
   visit.key("landmarks", s.landmarks,
             "radius in pixels of circles around landmarks: red sources, blue targets; 0: none",
             Range::non_negative);
+  visit.key("legend", s.legend, "the transfer function's colours and opacities beside their values");
+  visit.key("scale_bar", s.scale_bar,
+            "a round length; under perspective on the plane through the focal point, and it says so");
+  visit.key(
+      "labels", s.labels,
+      "letters at the edges: where left, posterior, superior (L, P, S: +x, +y, +z) and right, anterior, "
+      "inferior (R, A, I) lie");
+  visit.key("unit", s.unit, "behind the scale bar's length (none: mm for DICOM and NIfTI, else nothing)");
 }
 
 template <class Visitor, class Settings>

@@ -7,6 +7,7 @@
 #include "volume/phantom.h"
 
 #include <system_error>
+#include <utility>
 
 namespace slicelens {
 
@@ -52,10 +53,13 @@ Volume load_volume(const VolumeSettings& settings, const std::vector<fs::path>& 
     return make_phantom(name, settings.size.value_or(phantom_info(name).size), progress);
   }
   Volume volume = read_volume(source_of(settings, folders), progress);
+  if (holds_colors(volume))
+    return with_luminance(volume);
   if (volume.components > 1) {
-    throw UsageError(*settings.file + ": has " + std::to_string(volume.components) +
-                     " components a voxel; choose one with volume.component (0 to " +
-                     std::to_string(volume.components - 1) + ")");
+    throw UsageError(*settings.file + ": has " + std::to_string(volume.components) + " components a voxel" +
+                     (volume.components > 2 ? " that are no colours of 8 or 16 bits" : "") +
+                     "; choose one with volume.component (0 to " + std::to_string(volume.components - 1) +
+                     ")");
   }
   if (volume.non_finite > 0) {
     report_warning(progress, *settings.file + ": " + std::to_string(volume.non_finite) +
@@ -119,7 +123,10 @@ TransferFunction transfer_of(const Scene& scene, const Volume& volume) {
   TransferFunction transfer;
   if (settings.file)
     throw UsageError("transfer.file " + *settings.file + " has not been read");
-  if (settings.points) {
+  if (!settings.shapes.empty()) {
+    transfer = preset("grey-ramp", volume.min, volume.max); // for what shows single values
+    transfer.name = "shapes";
+  } else if (settings.points) {
     for (const auto& [value, r, g, b, opacity] : *settings.points)
       transfer.points.push_back({value, r, g, b, opacity});
     transfer.name = "points";
@@ -132,6 +139,7 @@ TransferFunction transfer_of(const Scene& scene, const Volume& volume) {
   }
   if (settings.unit_distance)
     transfer.unit_distance = settings.unit_distance;
+  transfer = windowed(std::move(transfer), settings.window, settings.level);
   validate(transfer);
   return transfer;
 }

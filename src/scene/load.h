@@ -21,7 +21,7 @@ std::filesystem::path resolve_file(const std::string& file, const std::vector<st
 VolumeSource source_of(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders);
 
 /// Reads the file or makes the phantom. The result has one component: several need `volume.component`, or a
-/// UsageError says so.
+/// UsageError says so. RGB and RGBA without volume.component become luminances with colours (with_luminance).
 Volume load_volume(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders,
                    const Progress& progress);
 
@@ -54,8 +54,8 @@ std::vector<LoadedVolume> load_others(const Scene& scene, const std::vector<std:
                                       const Progress& progress);
 
 /// The transfer function of the scene: its points, its preset, or without either the automatic one for this
-/// volume (the phantom's own preset for phantoms). Throws UsageError for a transfer.file that has not been
-/// loaded.
+/// volume (the phantom's own preset for phantoms), stretched by transfer.window and transfer.level. Throws
+/// UsageError for a transfer.file that has not been loaded.
 TransferFunction transfer_of(const Scene& scene, const Volume& volume);
 
 } // namespace slicelens

@@ -352,7 +352,7 @@ void validate_gradients(const Scene& scene) {
     throw UsageError("render.gradient_sigma must be from 0.3 to 8 voxels of the copy, not " +
                      number_text(render.gradient_sigma));
   }
-  if (!uses_gradients(render))
+  if (!uses_gradients(scene))
     return;
   const bool own_texture =
       render.gradient == Gradient::prefiltered || render.gradient == Gradient::precomputed;
@@ -396,6 +396,8 @@ void validate_label_table(const Scene& scene) {
       throw UsageError(at + ".label: " + std::to_string(label.label) + " has an entry already; keep one");
     if (!label.transfer)
       continue;
+    if (!label.transfer->shapes.empty())
+      throw UsageError(at + ".transfer.shapes: labels are classified by value; give points or a preset");
     try {
       validate_transfer(*label.transfer);
     } catch (const UsageError& error) {
@@ -425,12 +427,35 @@ void validate_labels(const Scene& scene) {
   if (render.footprint == Footprint::mip)
     refuse("has labels at one resolution, and means of several objects have none",
            "render.footprint to point");
+  if (scene.overlay.legend)
+    refuse("has a transfer function for each label, and overlay.legend shows one", "overlay.legend to false");
   for (const LabelSettings& label : scene.labels) {
     if (label.visible && label.mode != LabelMode::dvr && draws_slices(render.pipeline)) {
       refuse("shows label " + std::to_string(label.label) + " by '" + word(label.mode) +
                  "', which needs a ray's whole run through it: slices are blended one by one",
              "render.pipeline to rays or reference, or its mode to dvr");
     }
+  }
+}
+
+/// Smallest side of a picture that has room for lettering, in pixels.
+constexpr std::size_t smallest_annotated = 64;
+
+void validate_annotations(const Scene& scene) {
+  const auto& size = scene.render.size;
+  const std::size_t legends = smallest_annotated * volume_count(scene);
+  if (scene.overlay.legend && std::min(size[0], size[1]) < legends) {
+    throw UsageError("overlay.legend of " + std::to_string(volume_count(scene)) +
+                     " volume(s) needs a picture of at least " + std::to_string(legends) +
+                     " pixels on each side; raise render.size");
+  }
+  if (is_annotated(scene.overlay) && std::min(size[0], size[1]) < smallest_annotated) {
+    throw UsageError("overlay.scale_bar and labels need a picture of at least " +
+                     std::to_string(smallest_annotated) + " pixels on each side; raise render.size");
+  }
+  if (scene.overlay.legend && scene.render.mode == Mode::xray) {
+    throw UsageError("overlay.legend shows the transfer function's colours, which mode 'xray' does not; set "
+                     "it to false");
   }
 }
 
@@ -464,6 +489,34 @@ void validate_several(const Scene& scene) {
            "render.mode to dvr or xray");
 }
 
+/// A transfer function of value and gradient.
+void validate_shapes(const Scene& scene) {
+  const TransferSettings& transfer = scene.transfer;
+  if (transfer.shapes.empty())
+    return;
+  if (transfer.preset || transfer.points || transfer.file)
+    throw UsageError("transfer.shapes excludes preset, points and file; keep one");
+  if (transfer.shapes.size() > 256)
+    throw UsageError("transfer.shapes: give at most 256");
+  validate(transfer.shapes);
+  const RenderSettings& render = scene.render;
+  if (render.mode == Mode::two_level) {
+    throw UsageError("mode 'two-level' classifies values, and transfer.shapes gradients too; give "
+                     "transfer.points for transfer.shapes");
+  }
+  if (render.mode != Mode::dvr && render.mode != Mode::xray) {
+    throw UsageError("transfer.shapes need a gradient, which mode '" + word(render.mode) +
+                     "' does not have; set render.mode to dvr or xray");
+  }
+  if (render.classification == Classification::pre) {
+    throw UsageError(
+        "render.classification 'pre' classifies voxels, which have no gradient yet; set it to post, "
+        "or give transfer.points for transfer.shapes");
+  }
+  if (render.modulate_by_gradient)
+    throw UsageError("transfer.shapes follow the gradient themselves; remove render.modulate_by_gradient");
+}
+
 void validate_placement(const Placement& placement) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(placement.scale[axis] >= 1e-6 && placement.scale[axis] <= 1e6))
@@ -474,6 +527,10 @@ void validate_placement(const Placement& placement) {
 }
 
 } // namespace
+
+bool is_annotated(const OverlaySettings& overlay) {
+  return overlay.legend || overlay.scale_bar || overlay.labels;
+}
 
 Scene scene_of_volume(const Scene& scene, std::size_t index) {
   Scene one = scene;
@@ -549,6 +606,14 @@ void validate(const OverlaySettings& overlay) {
     throw UsageError("overlay.landmarks must be a radius of at most 1000 pixels, not " +
                      number_text(overlay.landmarks));
   }
+  if (overlay.stack != 0 && is_annotated(overlay)) {
+    throw UsageError("overlay.stack shows the slices from the side, where legend, scale_bar and labels would "
+                     "be wrong; set them to false, or overlay.stack to 0");
+  }
+  if (overlay.unit && overlay.unit->size() > max_unit_letters) {
+    throw UsageError("overlay.unit '" + *overlay.unit + "' is too long; give at most " +
+                     std::to_string(max_unit_letters) + " letters");
+  }
 }
 
 void validate(const Scene& scene) {
@@ -556,6 +621,7 @@ void validate(const Scene& scene) {
     if (volume_count(scene) > max_volumes)
       throw UsageError("volumes: at most " + std::to_string(max_volumes) + " can be shown at once");
     validate_several(scene);
+    validate_annotations(scene);
     for (std::size_t i = 0; i < volume_count(scene); ++i) {
       try {
         validate(scene_of_volume(scene, i));
@@ -566,6 +632,7 @@ void validate(const Scene& scene) {
     return;
   }
   validate_placement(scene.placement);
+  validate_shapes(scene);
   validate_volume(scene.volume);
   validate_transfer(scene.transfer);
   if (scene.camera.file)
@@ -580,6 +647,7 @@ void validate(const Scene& scene) {
     throw UsageError("light.direction is the zero vector; give a direction");
   }
   validate(scene.overlay);
+  validate_annotations(scene);
   validate_warps(scene);
   validate_effects(scene);
   validate_bricks(scene);

@@ -1,6 +1,7 @@
 // The scene: everything that decides a picture, as plain values (docs/scenes.md is the contract of its keys).
 #pragma once
 
+#include "volume/transfer_2d.h"
 #include "volume/volume.h"
 #include "warp/focus_effects.h"
 #include "warp/warp.h"
@@ -33,10 +34,13 @@ struct TransferSettings {
   std::optional<std::string> preset = std::nullopt;
   std::optional<std::vector<std::array<double, 5>>> points =
       std::nullopt;                                   ///< value (data units), r, g, b, opacity in [0,1]
+  std::vector<TransferShape> shapes = {};             ///< of value and gradient, instead of the others
   std::optional<std::string> file = std::nullopt;     ///< as given (scene/transfer_files.h)
   std::optional<std::string> map = std::nullopt;      ///< of a file that holds several
   std::optional<glm::dvec2> range = std::nullopt;     ///< onto which the points of a file are stretched
   std::optional<double> unit_distance = std::nullopt; ///< Δ₀, world units; none: h
+  std::optional<double> window = std::nullopt;        ///< width of its values, data units; none: its own
+  std::optional<double> level = std::nullopt;         ///< their middle, data units; none: its own
 };
 
 enum class ProjectionName { orthographic, perspective };
@@ -165,7 +169,10 @@ struct PlaneSettings {
 
 enum class Wireframe { none, segments, triangles };
 
-/// Section `overlay`: lines and false colours drawn over the picture.
+/// Most letters of overlay.unit.
+inline constexpr std::size_t max_unit_letters = 8;
+
+/// Section `overlay`: lines, false colours and lettering drawn over the picture.
 struct OverlaySettings {
   Wireframe wireframe = Wireframe::none;
   bool outline = false;
@@ -175,6 +182,11 @@ struct OverlaySettings {
   double stack =
       0; ///< volumes only: degrees the camera goes aside to show the slices themselves; 0: the volume
   double landmarks = 0; ///< volumes only: radius in pixels of the circles around landmarks; 0: none
+  // Volumes only (render/annotations.h).
+  bool legend = false;
+  bool scale_bar = false;
+  bool labels = false;
+  std::optional<std::string> unit = std::nullopt; ///< behind lengths; none: what the format says
 };
 
 /// Section `pick`.
@@ -282,6 +294,9 @@ inline bool composites(Mode mode) { return mode == Mode::dvr || mode == Mode::tw
 inline bool uses_gradients(const RenderSettings& render) {
   return render.shading != Shading::none || render.modulate_by_gradient.has_value();
 }
+inline bool uses_gradients(const Scene& scene) {
+  return uses_gradients(scene.render) || !scene.transfer.shapes.empty();
+}
 
 /// Whether the scene highlights or attenuates anything.
 bool has_effects(const Scene& scene);
@@ -294,6 +309,9 @@ Pipeline default_pipeline(const Scene& scene);
 /// pre, target rgba8 and opacity correction frame.
 void use_pipeline_defaults(RenderSettings& render, bool classification_given, bool target_given,
                            bool correction_given);
+
+/// Whether a legend, a scale bar or labels are drawn.
+bool is_annotated(const OverlaySettings& overlay);
 
 /// Throws UsageError naming the key.
 void validate(const OverlaySettings& overlay);

@@ -328,6 +328,9 @@ TEST_CASE("what two-level rendering cannot do is refused by name") {
   refused(volume + R"("render": {"tiles": [2, 1, 1]}})", "render.tiles");
   refused(volume + R"("render": {"footprint": "mip"}})", "render.footprint");
   refused(volume + R"("render": {"pipeline": "fixed-function"}})", "draws mode 'dvr' only");
+  refused(volume + R"("overlay": {"legend": true}})", "overlay.legend to false");
+  refused(volume + R"("transfer": {"shapes": [{}]}})", "transfer.points for transfer.shapes");
+  refused(volume + R"("labels": [{"label": 3, "transfer": {"shapes": [{}]}}]})", "labels[0].transfer.shapes");
   refused(volume + R"("planes": [{}]})", "set render.mode to dvr");
   refused(R"({"volumes": [{"phantom": "head"}, {"phantom": "head"}], "render": {"mode": "two-level"}})",
           "have no labels in common");

@@ -1,6 +1,8 @@
 #include "catch.h"
 #include "core/errors.h"
+#include "scene/load.h"
 #include "scene/scene_json.h"
+#include "volume/phantom.h"
 
 using namespace slicelens;
 
@@ -189,4 +191,38 @@ TEST_CASE("a warp is one object or a list, and chooses its paper's pipeline") {
   CHECK(contains(refusal(R"({"warp":{"kind":"lamr"}})"), "lamar"));
   CHECK(contains(refusal(R"({"warp":{"kind":"lamar","zom":3}})"), "did you mean warp.zoom?"));
   CHECK(contains(refusal(R"({"warp":{"kind":"lamar","radial_segments":"many"}})"), "adaptive"));
+}
+
+TEST_CASE("window and level stretch every kind of transfer function, also of one of several volumes") {
+  const Scene scene = scene_from_json(
+      R"({"volumes":[{"phantom":"ball","size":[8,8,8],"transfer":{"preset":"grey-ramp","window":10,"level":100}},
+                     {"phantom":"ball","size":[8,8,8],"transfer":{"points":[[0,0,0,0,0],[4,1,1,1,1]],"level":-6}},
+                     {"phantom":"ball","size":[8,8,8],"transfer":{"window":2}}]})",
+      "s");
+  const LoadedVolume preset = load_volume_of(scene, 0, {}, {});
+  CHECK(preset.transfer.points.front().value == 95);
+  CHECK(preset.transfer.points.back().value == 105);
+  const LoadedVolume points = load_volume_of(scene, 1, {}, {});
+  CHECK(points.transfer.points.front().value == -8);
+  CHECK(points.transfer.points.back().value == -4);
+  Scene plain = scene;
+  plain.others[1].transfer.window.reset();
+  const LoadedVolume own = load_volume_of(plain, 2, {}, {});
+  const LoadedVolume narrow = load_volume_of(scene, 2, {}, {});
+  const auto middle = [](const LoadedVolume& loaded) {
+    return (loaded.transfer.points.front().value + loaded.transfer.points.back().value) / 2;
+  };
+  CHECK(narrow.transfer.points.back().value - narrow.transfer.points.front().value == Approx(2));
+  CHECK(middle(narrow) == Approx(middle(own)));
+  CHECK_THROWS_AS(scene_from_json(R"({"transfer":{"window":0}})", "s"), UsageError);
+  CHECK_THROWS_AS(scene_from_json(R"({"transfer":{"window":-5}})", "s"), UsageError);
+}
+
+TEST_CASE("window and level stretch the automatic function of a volume") {
+  Scene scene = scene_from_json(R"({"volume":{"file":"x.nrrd"},"transfer":{"window":50,"level":7}})", "s");
+  const Volume volume = make_phantom("head", {16, 16, 16}, {});
+  const TransferFunction transfer = transfer_of(scene, volume);
+  CHECK(transfer.name == "automatic");
+  CHECK(transfer.points.front().value == -18);
+  CHECK(transfer.points.back().value == 32);
 }
