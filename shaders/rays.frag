@@ -122,10 +122,7 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #endif
 #endif
 #else
-  vec4 sample_color = classify_texel(displayed_texel(t));
-#ifdef MODULATED
-  sample_color.a *= opacity_factor(t, p);
-#endif
+  vec4 sample_color = plain_color(t, p);
 #if defined(MODE_XRAY)
 #ifdef FOCUS_EFFECTS
   vec4 grey = with_effects(vec4(1.0, 1.0, 1.0, sample_color.a * distance_ratio), effects_at(p));

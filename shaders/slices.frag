@@ -173,10 +173,7 @@ void main() {
   result = vec4(unit, 0.0, 0.0, 1.0);
 #endif
 #else
-  vec4 sample_color = classify_texel(displayed_texel(texture_coordinate));
-#ifdef MODULATED
-  sample_color.a *= opacity_factor(texture_coordinate, object_coordinate);
-#endif
+  vec4 sample_color = plain_color(texture_coordinate, object_coordinate);
 #if defined(MODE_XRAY)
 #if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)
   float weight = sample_color.a * sample_ratio();

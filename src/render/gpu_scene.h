@@ -11,8 +11,10 @@ namespace slicelens {
 
 /// Textures of a prepared scene, shared by the GPU pipelines.
 struct GpuScene {
-  gl::Texture volume;   ///< 3D, one channel, or associated RGBA of 8 bits under classification `pre`
-  gl::Texture transfer; ///< 1D, straight RGBA; none under classification `pre`
+  gl::Texture volume;      ///< 3D, one channel, or associated RGBA of 8 bits under classification `pre`
+  gl::Texture transfer;    ///< 1D, straight RGBA; none under classification `pre`
+  gl::Texture transfer_2d; ///< 2D, associated RGBA, of value and gradient; where the scene has shapes
+  glm::vec4 transfer_2d_place{1, 1, 0, 0};    ///< table coordinates = xy · (value, gradient) + zw
   glm::vec2 value_from_texel{1, 0};           ///< data value = x · texel + y
   glm::vec2 transfer_from_value{1, 0};        ///< table coordinate = x · value + y
   glm::vec2 transfer_from_texel{1, 0};        ///< table coordinate = x · texel + y

@@ -32,7 +32,7 @@ gl::Program probe_program(const gl::Functions& gl, const PreparedScene& prepared
   std::vector<std::string> macros = common_macros(prepared);
   if (place)
     macros.emplace_back("PROBE_PLACE");
-  if (!uses_gradients(prepared.scene.render)) { // else gradients are those of the shading
+  if (!uses_gradients(prepared.scene)) { // else gradients are those of the shading
     macros.emplace_back("GRADIENTS");
     macros.emplace_back("GRADIENT_CENTRAL");
     if (prepared.gradient_space == GradientSpace::object)

@@ -245,7 +245,10 @@ struct Tracer : SharedFunctions {
 
   /// Straight colour and opacity per own reference length.
   vec4 sample_color(vec3 t, vec3 p, vec3 to_eye) {
-    vec4 color = evaluate(prepared.transfer, displayed_value(t));
+    const auto& shapes = prepared.scene.transfer.shapes;
+    vec4 color = shapes.empty() ? evaluate(prepared.transfer, displayed_value(t))
+                                : evaluate(shapes, displayed_value(t),
+                                           length(world_from_gradient * shown_gradient(t, p)));
     if (const auto& full = prepared.scene.render.modulate_by_gradient; full && color.w > 0)
       color.w *= min(length(world_from_gradient * shown_gradient(t, p)) / *full, 1.0);
     if (prepared.scene.render.shading == Shading::none || color.w == 0)
@@ -424,7 +427,7 @@ SharedFunctions::RayFrame shared_frame(const PreparedScene& prepared) {
 template <class T>
 std::optional<SmoothCopy> smooth_voxels(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
-  if (!uses_gradients(render) || render.gradient != Gradient::prefiltered)
+  if (!uses_gradients(prepared.scene) || render.gradient != Gradient::prefiltered)
     return std::nullopt;
   const Tracer<T> voxels(prepared, nullptr, nullptr);
   const auto dims = reduced_dims(prepared.volume.dims, reduction_of(render.gradient_resolution));

@@ -6,6 +6,7 @@
 #include "render/tiled_draw.h"
 #include "scene/names.h"
 
+#include <algorithm>
 #include <cctype>
 
 namespace slicelens {
@@ -18,10 +19,18 @@ std::string upper_case(std::string text) {
   return text;
 }
 
+/// Whether one of several volumes is classified by its gradient.
+bool any_shapes(const PreparedScene& prepared) {
+  return std::any_of(prepared.others.begin(), prepared.others.end(),
+                     [](const PreparedScene& other) { return uses_gradients(other.scene); });
+}
+
 void add_shading_macros(const PreparedScene& prepared, std::vector<std::string>& macros) {
   const RenderSettings& render = prepared.scene.render;
-  if (!uses_gradients(render))
+  if (!uses_gradients(prepared.scene) && !any_shapes(prepared))
     return;
+  if (!prepared.scene.transfer.shapes.empty())
+    macros.emplace_back("TRANSFER_2D");
   if (render.modulate_by_gradient)
     macros.emplace_back("MODULATED");
   if (render.shading != Shading::none) {
@@ -175,6 +184,12 @@ void set_volume_uniforms(const gl::Functions& gl, const gl::Uniforms& program, c
   gl.BindTexture(GL_TEXTURE_1D, scene.transfer.name());
   set_uniform(gl, program, "volume_texture", static_cast<int>(units.volume));
   set_uniform(gl, program, "transfer_texture", static_cast<int>(units.transfer));
+  if (scene.transfer_2d) {
+    gl.ActiveTexture(GL_TEXTURE0 + units.transfer_2d);
+    gl.BindTexture(GL_TEXTURE_2D, scene.transfer_2d.name());
+    set_uniform(gl, program, "transfer_2d_texture", static_cast<int>(units.transfer_2d));
+    set_uniform(gl, program, "transfer_2d_place", scene.transfer_2d_place);
+  }
   set_uniform(gl, program, "value_from_texel", scene.value_from_texel);
   set_uniform(gl, program, "transfer_from_value", scene.transfer_from_value);
   set_uniform(gl, program, "transfer_from_texel", scene.transfer_from_texel);

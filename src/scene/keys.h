@@ -27,9 +27,25 @@ void volume_keys(Visitor& visit, Settings& s) {
 
 template <class Visitor, class Settings>
 void transfer_keys(Visitor& visit, Settings& s) {
-  visit.key("preset", s.preset, "named transfer function (slicelens list presets); excludes points");
+  visit.key("preset", s.preset, "named transfer function (slicelens list presets); excludes points and file");
   visit.key("points", s.points,
-            "[[value, r, g, b, opacity], …], value in data units, ascending; excludes preset");
+            "[[value, r, g, b, opacity], …], value in data units, ascending; excludes preset and file");
+  visit.list("shapes", s.shapes,
+             "a function of value and gradient instead: shapes whose opacities add up; excludes the others",
+             [](auto& v, auto& x) {
+               v.key("value", x.value,
+                     "[a, b, c, d] in data units: nothing below a, rising to b, whole to c, falling to d");
+               v.key("gradient", x.gradient, "the same of the gradient, data units per world unit");
+               v.key("color", x.color, "[r, g, b]", Range::unit);
+               v.key("opacity", x.opacity, "where the shape is whole", Range::unit);
+             });
+  visit.key("file", s.file,
+            "transfer function of ParaView (.json, .xml), 3D Slicer (.vp, .vp.json) or ImageVis3D (.1dt); "
+            "excludes preset and points");
+  visit.key("map", s.map, "name of the colour map in a ParaView file that holds several");
+  visit.key("range", s.range,
+            "[first, last]: data values onto which the points of file are stretched (none: as the file says; "
+            ".1dt: the data's range)");
   visit.key("unit_distance", s.unit_distance,
             "reference length of the opacities in world units (none: the smallest voxel spacing)",
             Range::positive);
@@ -63,6 +79,7 @@ void layer_keys(Visitor& visit, Settings& s) {
 
 template <class Visitor, class Settings>
 void camera_keys(Visitor& visit, Settings& s) {
+  visit.key("file", s.file, "camera of ParaView (.pvcc); excludes all other keys but zoom");
   visit.key("azimuth", s.azimuth, "degrees about view up, as VTK's Azimuth");
   visit.key("elevation", s.elevation, "degrees about the horizontal axis, as VTK's Elevation");
   visit.key("roll", s.roll, "degrees about the viewing direction, as VTK's Roll");

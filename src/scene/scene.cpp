@@ -41,6 +41,34 @@ void validate_camera(const CameraSettings& camera) {
     throw UsageError("camera.view_up is the zero vector; give a direction");
 }
 
+void validate_transfer(const TransferSettings& transfer) {
+  const auto refuse = [](const char* a, const char* b) {
+    throw UsageError(std::string("transfer.") + a + " and transfer." + b + " are both given; keep one");
+  };
+  if (transfer.preset && transfer.points)
+    refuse("preset", "points");
+  if (transfer.preset && transfer.file)
+    refuse("preset", "file");
+  if (transfer.points && transfer.file)
+    refuse("points", "file");
+  if (transfer.file && transfer.file->empty())
+    throw UsageError("transfer.file is empty; name a file");
+  if ((transfer.map || transfer.range) && !transfer.file)
+    throw UsageError("transfer.map and transfer.range belong to transfer.file, which is not given");
+  if (transfer.range && !(transfer.range->x < transfer.range->y))
+    throw UsageError("transfer.range must be [first, last] with first below last");
+}
+
+void validate_camera_file(const CameraSettings& camera) {
+  const CameraSettings usual;
+  if (camera.file->empty())
+    throw UsageError("camera.file is empty; name a file");
+  if (camera.position || camera.focal_point || camera.view_up || camera.parallel_scale ||
+      camera.azimuth != 0 || camera.elevation != 0 || camera.roll != 0 ||
+      camera.projection != usual.projection || camera.view_angle != usual.view_angle)
+    throw UsageError("camera.file holds a whole camera; of the other keys only camera.zoom goes with it");
+}
+
 void validate_render(const RenderSettings& render) {
   for (const std::size_t n : render.size) {
     if (n < 1 || n > 32768)
@@ -323,7 +351,7 @@ void validate_gradients(const Scene& scene) {
     throw UsageError("render.gradient_sigma must be from 0.3 to 8 voxels of the copy, not " +
                      number_text(render.gradient_sigma));
   }
-  if (!uses_gradients(render))
+  if (!uses_gradients(scene))
     return;
   const bool own_texture =
       render.gradient == Gradient::prefiltered || render.gradient == Gradient::precomputed;
@@ -394,6 +422,40 @@ void validate_several(const Scene& scene) {
     refuse("under mode '" + word(render.mode) +
            "' have a winner each, which highlight and attenuation cannot follow; set "
            "render.mode to dvr or xray");
+}
+
+/// A transfer function of value and gradient.
+void validate_shapes(const Scene& scene) {
+  const TransferSettings& transfer = scene.transfer;
+  if (transfer.shapes.empty())
+    return;
+  if (transfer.preset || transfer.points || transfer.file)
+    throw UsageError("transfer.shapes excludes preset, points and file; keep one");
+  if (transfer.shapes.size() > 256)
+    throw UsageError("transfer.shapes: give at most 256");
+  validate(transfer.shapes);
+  const RenderSettings& render = scene.render;
+  if (render.mode != Mode::dvr && render.mode != Mode::xray) {
+    throw UsageError("transfer.shapes need a gradient, which mode '" + word(render.mode) +
+                     "' does not have; set render.mode to dvr or xray");
+  }
+  if (render.classification == Classification::pre) {
+    throw UsageError(
+        "render.classification 'pre' classifies voxels, which have no gradient yet; set it to post, "
+        "or give transfer.points for transfer.shapes");
+  }
+  if (render.modulate_by_gradient)
+    throw UsageError("transfer.shapes follow the gradient themselves; remove render.modulate_by_gradient");
+  if (transfer.window || transfer.level) {
+    throw UsageError(
+        "transfer.window and transfer.level stretch a function of values only; remove them, or give "
+        "transfer.points for transfer.shapes");
+  }
+  if (scene.overlay.legend) {
+    throw UsageError(
+        "overlay.legend shows a function of values only; set it to false, or give transfer.points "
+        "for transfer.shapes");
+  }
 }
 
 void validate_placement(const Placement& placement) {
@@ -511,10 +573,11 @@ void validate(const Scene& scene) {
     return;
   }
   validate_placement(scene.placement);
+  validate_shapes(scene);
   validate_volume(scene.volume);
-  if (scene.transfer.preset && scene.transfer.points) {
-    throw UsageError("transfer.preset and transfer.points are both given; keep one");
-  }
+  validate_transfer(scene.transfer);
+  if (scene.camera.file)
+    validate_camera_file(scene.camera);
   validate_camera(scene.camera);
   if (scene.render.pipeline == Pipeline::fixed_function)
     validate_fixed_function(scene.render);

@@ -1,6 +1,7 @@
 // The scene: everything that decides a picture, as plain values (docs/scenes.md is the contract of its keys).
 #pragma once
 
+#include "volume/transfer_2d.h"
 #include "volume/volume.h"
 #include "warp/focus_effects.h"
 #include "warp/warp.h"
@@ -32,6 +33,10 @@ struct TransferSettings {
   std::optional<std::string> preset = std::nullopt;
   std::optional<std::vector<std::array<double, 5>>> points =
       std::nullopt;                                   ///< value (data units), r, g, b, opacity in [0,1]
+  std::vector<TransferShape> shapes = {};             ///< of value and gradient, instead of the others
+  std::optional<std::string> file = std::nullopt;     ///< as given (scene/transfer_files.h)
+  std::optional<std::string> map = std::nullopt;      ///< of a file that holds several
+  std::optional<glm::dvec2> range = std::nullopt;     ///< onto which the points of a file are stretched
   std::optional<double> unit_distance = std::nullopt; ///< Δ₀, world units; none: h
   std::optional<double> window = std::nullopt;        ///< width of its values, data units; none: its own
   std::optional<double> level = std::nullopt;         ///< their middle, data units; none: its own
@@ -41,6 +46,7 @@ enum class ProjectionName { orthographic, perspective };
 
 /// Section `camera`. Angles in degrees, positions in world space (LPS).
 struct CameraSettings {
+  std::optional<std::string> file = std::nullopt; ///< as given; excludes everything else but zoom
   double azimuth = 0;
   double elevation = 0;
   double roll = 0;
@@ -267,6 +273,9 @@ inline bool classifies_last(Mode mode) {
 /// Whether samples need the gradient of what is shown.
 inline bool uses_gradients(const RenderSettings& render) {
   return render.shading != Shading::none || render.modulate_by_gradient.has_value();
+}
+inline bool uses_gradients(const Scene& scene) {
+  return uses_gradients(scene.render) || !scene.transfer.shapes.empty();
 }
 
 /// Whether the scene highlights or attenuates anything.

@@ -100,7 +100,8 @@ TransferTable make_table(const TransferFunction& transfer, std::size_t texels = 
 struct PresetInfo {
   std::string name;
   std::string description;
-  bool relative = false; ///< true: stretched over the data's range; false: absolute, in HU
+  bool relative = false;   ///< true: stretched over the data's range; false: absolute, in `unit`
+  std::string unit = "HU"; ///< of absolute ones
 };
 
 /// The presets by the names that 3D Slicer's users know, with this project's own values, and cast-and-steel,

@@ -256,3 +256,79 @@ TEST_CASE("what the new modes cannot do is refused by name") {
   CHECK_THAT(refusal(R"({"volumes": [{}, {}], "render": {"mode": "average"}})"),
              Catch::Contains("'average'"));
 }
+
+TEST_CASE("shapes in the plane of value and gradient are what a hand calculation says") {
+  const std::vector<TransferShape> shapes = {{{0, 2, 4, 8}, {1, 1, 3, 5}, {1, 0, 0}, 0.5},
+                                             {{3, 3, 9, 9}, {0, 0, 2, 2}, {0, 1, 0}, 0.8}};
+  const auto close = [](const glm::dvec4& a, const glm::dvec4& b) { return glm::length(a - b) < 1e-12; };
+  CHECK(close(evaluate(shapes, 1, 2.5), {1, 0, 0, 0.25})); // halfway up
+  CHECK(close(evaluate(shapes, 2, 4), {1, 0, 0, 0.25}));   // halfway down the gradient
+  CHECK(close(evaluate(shapes, 6, 2.5), {1, 0, 0, 0.25})); // halfway down the value, above the second
+  CHECK(close(evaluate(shapes, 3, 2), {0.5 / 1.3, 0.8 / 1.3, 0, 1})); // both whole: 1.3, at most 1
+  CHECK(close(evaluate(shapes, 9, 0), {0, 1, 0, 0.8}));               // a step's own place is inside
+  CHECK(close(evaluate(shapes, 1, 0.99), {0, 0, 0, 0}));
+  CHECK(close(evaluate(shapes, std::numeric_limits<double>::quiet_NaN(), 2), {0, 0, 0, 0}));
+  // Texels of the table are the function: the middle row and column are half of the ranges.
+  const TransferTable2D table = make_table(shapes, 0, 10.23);
+  REQUIRE(table.rgba.size() == 4U * 1024 * 512);
+  const auto texel = [&](int i, int j) {
+    return table.rgba[4U * (static_cast<std::size_t>(j) * 1024U + static_cast<std::size_t>(i)) + 3];
+  };
+  CHECK(texel(200, 200) == Approx(0.5)); // value 2, gradient 200·5/511
+  CHECK(texel(100, 200) == Approx(0.25));
+  CHECK(texel(0, 0) == 0);
+}
+
+TEST_CASE("a transfer function of value and gradient sees the slope of a ramp") {
+  gl::Context context = test_context();
+  // Value 0.5 and slope 0.6/11 along the middle ray, as above; in `xray` S is the shape's opacity times the
+  // length.
+  const double slope = 0.6 / 11;
+  const auto line = [&](const std::string& pipeline, double least, double most) {
+    Volume volume =
+        volume_of(ScalarType::f32, {12, 16, 12}, [](int i, int, int) { return 0.2 + 0.6 * i / 11; });
+    Scene scene = scene_from_json(R"({"render": {"size": [9, 9], "background": [0, 0, 0, 0], "mode": "xray",
+                                  "xray_scale": 1, "pipeline": ")" +
+                                      pipeline + "\"}}",
+                                  "test");
+    scene.transfer.shapes = {{{0, 0, 1, 1}, {least, least, most, most}, {1, 1, 1}, 0.03}};
+    return alpha_in_middle(prepare(std::move(scene), std::move(volume), grey(0.9)), context);
+  };
+  for (const std::string& pipeline : pipelines) {
+    INFO(pipeline);
+    CHECK(line(pipeline, 0.8 * slope, 1.2 * slope) ==
+          Approx(0.03 * 16).epsilon(1e-4)); // 16 voxels of length one
+    CHECK(line(pipeline, 0, 0.8 * slope) == Approx(0).margin(1e-6));
+    CHECK(line(pipeline, 1.2 * slope, 3 * slope) == Approx(0).margin(1e-6));
+  }
+}
+
+TEST_CASE("a transfer function of value and gradient is the same in every pipeline") {
+  gl::Context context = test_context();
+  const std::string json = R"({"volume": {"phantom": "head", "size": [32, 32, 32]}, "camera": {"azimuth": 30},
+    "transfer": {"shapes": [{"value": [-600, -350, -250, 0], "gradient": [20, 50, 300, 500], "color": [0.9, 0.6, 0.5],
+    "opacity": 0.2}, {"value": [150, 300, 1200, 1500], "gradient": [0, 20, 900, 1200], "opacity": 0.5}]},
+    "render": {"size": [48, 48], "filter": "linear-exact"}})";
+  const PreparedScene head = prepare_phantom(json, grey(0.5));
+  for (const std::string warp : {"warp=null", R"(warp={"kind":"twist","angle":40})"}) {
+    for (const char* shading : {"none", "phong"}) {
+      const auto by = [&](const std::string& pipeline) {
+        return picture(
+            changed(head, {warp, std::string("render.shading=") + shading, "render.pipeline=" + pipeline}),
+            context);
+      };
+      const Image reference = by("reference");
+      // 1024 x 512 texels stand for the shapes, filtered linearly between.
+      CHECK(psnr(by("fragment"), reference) >= 55);
+      CHECK(psnr(by("rays"), reference) >= 55);
+    }
+  }
+  CHECK_THAT(refusal(R"({"transfer": {"shapes": [{}], "preset": "CT-Bone"}})"),
+             Catch::Contains("transfer.shapes"));
+  CHECK_THAT(refusal(R"({"transfer": {"shapes": [{}]}, "render": {"mode": "mip"}})"),
+             Catch::Contains("'mip'"));
+  CHECK_THAT(refusal(R"({"transfer": {"shapes": [{"value": [1, 0, 2, 3]}]}})"),
+             Catch::Contains("do not decrease"));
+  CHECK_THAT(refusal(R"({"transfer": {"shapes": [{"gradient": [-1, 0, 2, 3]}]}})"),
+             Catch::Contains("none below 0"));
+}

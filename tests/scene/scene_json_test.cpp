@@ -70,7 +70,7 @@ TEST_CASE("wrong types and values are refused with what would be right") {
   CHECK(contains(refusal(R"({"render":{"spacing":0}})"),
                  "render.spacing: 0 is not valid; give a number above 0"));
   CHECK(contains(refusal(R"({"render":{"spacing":"1"}})"), "give a number"));
-  CHECK(contains(refusal(R"({"render":{"mode":"drv"}})"), "give one of dvr, mip, xray"));
+  CHECK(contains(refusal(R"({"render":{"mode":"drv"}})"), "give one of dvr, mip, minip, average, xray, iso"));
   CHECK(contains(refusal(R"({"render":{"size":[64]}})"), "list of 2"));
   CHECK(contains(refusal(R"({"render":{"size":[-1,5]}})"), "render.size[0]"));
   CHECK(contains(refusal(R"({"render":{"size":[0,5]}})"), "render.size"));

@@ -211,7 +211,10 @@ TEST_CASE("every preset is valid, visible, and has a faithful table") {
                                         "halves",
                                         "grey-ramp",
                                         "fog",
-                                        "opaque"};
+                                        "opaque",
+                                        "organs",
+                                        "organs-labels",
+                                        "colon"};
   std::set<std::string> names;
   for (const PresetInfo& info : presets()) {
     INFO(info.name);
