@@ -54,7 +54,7 @@ std::vector<LoadedVolume> load_others(const Scene& scene, const std::vector<std:
                                       const Progress& progress);
 
 /// The transfer function of the scene: its points, its preset, or without either the automatic one for this
-/// volume (the phantom's own preset for phantoms); stretched by transfer.window and transfer.level. Throws
+/// volume (the phantom's own preset for phantoms), stretched by transfer.window and transfer.level. Throws
 /// UsageError for a transfer.file that has not been loaded.
 TransferFunction transfer_of(const Scene& scene, const Volume& volume);
 
