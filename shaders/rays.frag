@@ -18,21 +18,16 @@
 #include "gpu/light.glsl"
 #endif
 #include "gpu/focus_effects.glsl"
+#include "gpu/ray.glsl"
 #ifdef CUT_PLANES
 #include "gpu/plane.glsl"
 uniform CutPlane planes[CUT_PLANES];
 #endif
 
-uniform RayFrame frame;
-uniform float delta;             // Δ, world units
 uniform float distance_ratio;    // Δ/Δ₀, or 1 without correction
 uniform float early_termination;
 uniform vec3 to_eye_axis;
 uniform mat3 world_from_direction;  // texture-space vectors to world space
-uniform vec3 object_low;           // bounds of the displayed volume, texture coordinates
-uniform vec3 object_high;
-uniform int clip_count;
-uniform vec4 clip_planes[MAX_CLIP_PLANES];
 
 in vec2 place;
 out vec4 result;
@@ -139,11 +134,10 @@ vec4 nearest_plane(PixelRay ray, vec2 interval, inout float nearest) {
 #endif
 
 void main() {
+  PixelRay ray = ray_through(place);
 #ifdef PERSPECTIVE
-  PixelRay ray = ray_from_pixel(frame, true, place.x, place.y);
   vec3 to_eye = -normalize(world_from_direction * ray.direction);
 #else
-  PixelRay ray = ray_from_pixel(frame, false, place.x, place.y);
   vec3 to_eye = to_eye_axis;
 #endif
   vec2 interval = hit_box(ray, object_low, object_high);
@@ -152,7 +146,7 @@ void main() {
   vec4 behind = nearest_plane(ray, interval, stop);
   interval.y = min(interval.y, stop);
 #endif
-  for (int i = 0; i < clip_count; ++i) interval = clip_interval(interval, ray, clip_planes[i]);
+  interval = clipped(interval, ray);
 #if defined(MODE_MIP) && !defined(VOLUMES)
   vec4 gathered = vec4(-3.0e38, 0.0, 0.0, 0.0);
 #else
@@ -162,7 +156,7 @@ void main() {
     int first = int(first_sample(interval.x, delta));
     int last = int(last_sample(interval.y, delta));
     for (int k = first; k <= last; ++k) {
-      vec3 p = ray.origin + ((float(k) + 0.5) * delta) * ray.direction;
+      vec3 p = ray_point(ray, float(k));
       gathered = gather(gathered, p, to_eye);
 #if defined(EARLY_TERMINATION) && defined(MODE_DVR)
       if (gathered.a >= early_termination) break;

@@ -7,7 +7,8 @@
 // also tests where it looks: that mesh is not clipped in the data;
 // WARP_FRAGMENT evaluates the warps here; AXIS_TABLES reads them from Cohen's tables. HIGHLIGHT and ATTENUATION follow the
 // coordinate where the sample is shown; under MIP the winner of the depth test keeps its own. VOLUMES: there are several
-// (gpu/one_volume.glsl); under MIP each has its own channel.
+// (gpu/one_volume.glsl); under MIP each has its own channel. SHELLS: polygons only cover what a shell about the eye can
+// colour, and each fragment takes the sample that rays.frag would take there.
 
 #include "lib/opacity.glsl"
 #include "lib/composite.glsl"
@@ -26,6 +27,10 @@
 #include "gpu/light.glsl"
 #endif
 #include "gpu/focus_effects.glsl"
+#ifdef SHELLS
+#include "lib/ray.glsl"
+#include "gpu/ray.glsl"
+#endif
 
 uniform float distance_ratio;     // Δ/Δ₀ on the view axis
 uniform vec4 slope_from_pixel;    // perspective: tangents of the ray's angles = xy · gl_FragCoord + zw
@@ -39,6 +44,20 @@ in vec3 object_coordinate;
 in vec4 homogeneous_coordinate;
 #endif
 out vec4 result;
+
+// Where the sample is shown.
+#ifdef SHELLS
+uniform vec2 place_from_pixel;  // pixels to [0, 2]
+flat in float shell;
+vec3 sample_point() {
+  PixelRay ray = ray_through(place_from_pixel * gl_FragCoord.xy - 1.0);
+  vec2 interval = clipped(hit_box(ray, object_low, object_high), ray);
+  if (shell < first_sample(interval.x, delta) || shell > last_sample(interval.y, delta)) discard;
+  return ray_point(ray, shell);
+}
+#else
+vec3 sample_point() { return object_coordinate; }
+#endif
 
 #if defined(CORRECT_FRAGMENT)
 float sample_ratio() {
@@ -60,19 +79,20 @@ vec3 direction_to_eye(vec3 p) {
 #ifdef VOLUMES
 // Several volumes: the samples of all at this place are one sample.
 void main() {
+  vec3 p = sample_point();
 #if defined(MODE_MIP)
-  result = all_units(object_coordinate);
+  result = all_units(p);
 #else
-  vec4 sample_color = all_samples(object_coordinate, direction_to_eye(object_coordinate));
+  vec4 sample_color = all_samples(p, direction_to_eye(p));
 #if defined(MODE_XRAY)
   vec4 grey = vec4(1.0, 1.0, 1.0, sample_color.a * sample_ratio());
 #ifdef FOCUS_EFFECTS
-  grey = with_effects(grey, effects_at(object_coordinate));
+  grey = with_effects(grey, effects_at(p));
 #endif
   result = associated(grey.rgb, grey.a);
 #else
 #ifdef FOCUS_EFFECTS
-  sample_color = with_effects(sample_color, effects_at(object_coordinate));
+  sample_color = with_effects(sample_color, effects_at(p));
 #endif
   result = associated(sample_color.rgb, corrected_opacity(sample_color.a, sample_ratio()));
 #endif
@@ -80,27 +100,28 @@ void main() {
 }
 #else
 void main() {
+  vec3 p = sample_point();
 #if defined(WARP_TESSELLATED)
   vec3 texture_coordinate = homogeneous_coordinate.xyz / homogeneous_coordinate.w;
 #ifdef WARP_SUBDIVIDED
   if (!in_volume(texture_coordinate) || !in_data_planes(texture_coordinate)) discard;
 #endif
 #elif defined(AXIS_TABLES)
-  AxisTexels texels = fetch_axis_tables(object_coordinate);
-  vec3 texture_coordinate = axis_texture_from_object(texels, object_coordinate);
+  AxisTexels texels = fetch_axis_tables(p);
+  vec3 texture_coordinate = axis_texture_from_object(texels, p);
 #ifdef DATA_PLANES
   if (!in_data_planes(texture_coordinate)) discard;
 #endif
 #elif defined(WARP_FRAGMENT)
-  vec3 texture_coordinate = texture_from_object(object_coordinate);
+  vec3 texture_coordinate = texture_from_object(p);
   if (!in_volume(texture_coordinate) || !in_data_planes(texture_coordinate)) discard;
 #else
-  vec3 texture_coordinate = object_coordinate;
+  vec3 texture_coordinate = p;
 #endif
 #if defined(FOCUS_EFFECTS) && defined(AXIS_TABLES)
   vec2 focus = axis_effects(texels);
 #elif defined(FOCUS_EFFECTS)
-  vec2 focus = effects_at(object_coordinate);
+  vec2 focus = effects_at(p);
 #endif
 #if defined(CLASSIFICATION_PRE)
   vec4 sample_color = classified_sample(texture_coordinate);
@@ -115,11 +136,11 @@ void main() {
 #else
 #if defined(LEVELS) && LEVELS > 1
 #if defined(FOOTPRINT)
-  choose_footprint_level(object_coordinate);
+  choose_footprint_level(p);
 #elif defined(WARP_TESSELLATED)
   choose_level(homogeneous_coordinate.w);
 #elif defined(WARP_FRAGMENT)
-  choose_level(magnification(object_coordinate));
+  choose_level(magnification(p));
 #endif
 #endif
 #if defined(MODE_MIP)
@@ -147,7 +168,7 @@ void main() {
 #endif
 #else
 #ifdef SHADED
-  sample_color.rgb = shade(sample_color.rgb, texture_coordinate, object_coordinate, direction_to_eye(object_coordinate));
+  sample_color.rgb = shade(sample_color.rgb, texture_coordinate, p, direction_to_eye(p));
 #endif
 #ifdef FOCUS_EFFECTS
   sample_color = with_effects(sample_color, focus);

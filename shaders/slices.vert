@@ -1,5 +1,5 @@
 // A corner of a slice polygon: where it is shown, and with WARP_TESSELLATED the homogeneous texture coordinate that it
-// looks at (LaMar 2001 §3).
+// looks at (LaMar 2001 §3), with SHELLS the number of its shell.
 
 uniform mat4 clip_from_texture;
 in vec3 corner;
@@ -8,11 +8,18 @@ out vec3 object_coordinate;
 in vec4 look;
 out vec4 homogeneous_coordinate;
 #endif
+#ifdef SHELLS
+in vec4 look;
+flat out float shell;
+#endif
 
 void main() {
   object_coordinate = corner;
 #ifdef WARP_TESSELLATED
   homogeneous_coordinate = look;
+#endif
+#ifdef SHELLS
+  shell = look.x;
 #endif
   gl_Position = clip_from_texture * vec4(corner, 1.0);
 }

@@ -61,6 +61,8 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
   add_shading_macros(prepared, macros);
   if (prepared.view.projection == Projection::perspective)
     macros.emplace_back("PERSPECTIVE");
+  if (render.proxy == Proxy::shells)
+    macros.emplace_back("SHELLS");
   if (render.pipeline == Pipeline::axis) {
     macros.emplace_back("AXIS_TABLES");
     if (is_unmasked(prepared.tables))

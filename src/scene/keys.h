@@ -84,6 +84,9 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key("spacing", s.spacing, "slice or step distance in units of the smallest voxel spacing",
             Range::positive);
   visit.key("order", s.order, "back-to-front or front-to-back blending of slices");
+  visit.key("proxy", s.proxy,
+            "what slices are: planes, or shells about the eye (perspective only), whose samples are those of "
+            "rays");
   visit.key("opacity_correction", s.opacity_correction,
             "fragment (for the distance along each ray), frame (for the slice distance only) or none");
   visit.key("shading", s.shading,

@@ -43,6 +43,11 @@ const std::vector<EnumName<Order>>& names_of(Order) {
   return names;
 }
 
+const std::vector<EnumName<Proxy>>& names_of(Proxy) {
+  static const std::vector<EnumName<Proxy>> names = {{Proxy::planes, "planes"}, {Proxy::shells, "shells"}};
+  return names;
+}
+
 const std::vector<EnumName<OpacityCorrection>>& names_of(OpacityCorrection) {
   static const std::vector<EnumName<OpacityCorrection>> names = {{OpacityCorrection::fragment, "fragment"},
                                                                  {OpacityCorrection::frame, "frame"},

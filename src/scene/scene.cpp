@@ -111,6 +111,35 @@ void validate_fixed_function(const RenderSettings& render) {
   }
 }
 
+/// Slices as shells about the eye: every fragment finds its own sample, on its ray.
+void validate_shells(const Scene& scene) {
+  const RenderSettings& render = scene.render;
+  if (render.proxy == Proxy::planes)
+    return;
+  const auto refuse = [](const std::string& problem) {
+    throw UsageError("render.proxy 'shells' " + problem);
+  };
+  const std::string pipeline = "pipeline '" + word(render.pipeline) + "' ";
+  if (!draws_slices(render.pipeline))
+    refuse("is about slices; " + pipeline + "samples shells by itself: set render.proxy to planes");
+  if (render.pipeline == Pipeline::tessellated || render.pipeline == Pipeline::fixed_function)
+    refuse("finds each sample at its fragment, and " + pipeline +
+           "looks where the corners of planes say; use slices, axis, fragment or grid");
+  if (scene.camera.projection == ProjectionName::orthographic)
+    refuse(
+        "are spheres about the eye, which camera.projection orthographic does not have: its planes are its "
+        "shells; set camera.projection to perspective or render.proxy to planes");
+  if (render.classification == Classification::pre)
+    refuse("looks the value up at each fragment; set render.classification to post");
+  if (render.tiles != std::array<std::size_t, 3>{1, 1, 1})
+    refuse("crosses tiles at each fragment, and triangles would have to be cut there; set render.tiles to "
+           "[1,1,1]");
+  if (!scene.planes.empty())
+    refuse("has no depth of a polygon for planes to stop; remove planes or set render.proxy to planes");
+  if (scene.overlay.stack != 0)
+    refuse("has no flat slices for overlay.stack to show; set it to 0 or render.proxy to planes");
+}
+
 /// Where Cohen's effects can be drawn.
 void validate_effects(const Scene& scene) {
   validate(scene.highlight);
@@ -453,6 +482,7 @@ void validate(const Scene& scene) {
     throw UsageError("light.direction is the zero vector; give a direction");
   }
   validate(scene.overlay);
+  validate_shells(scene);
   validate_warps(scene);
   validate_effects(scene);
   validate_bricks(scene);

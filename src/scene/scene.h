@@ -54,6 +54,8 @@ struct CameraSettings {
 enum class Pipeline { slices, tessellated, axis, fragment, grid, fixed_function, rays, reference };
 enum class Mode { dvr, mip, xray };
 enum class Order { back_to_front, front_to_back };
+/// What slices are: planes, or under perspective shells about the eye, whose samples are those of rays.
+enum class Proxy { planes, shells };
 enum class OpacityCorrection { fragment, frame, none };
 enum class Shading { none, diffuse, phong, tone };
 /// `prefiltered`: central differences of a Gaussian copy; `precomputed`: central differences at voxels,
@@ -83,6 +85,7 @@ struct RenderSettings {
   std::array<std::size_t, 2> size{512, 512};
   double spacing = 1; ///< in units of h
   Order order = Order::back_to_front;
+  Proxy proxy = Proxy::planes;
   OpacityCorrection opacity_correction = OpacityCorrection::fragment;
   Shading shading = Shading::none;
   Gradient gradient = Gradient::central;
