@@ -32,6 +32,8 @@ uniform mat3 world_from_direction;  // texture-space vectors to world space
 in vec2 place;
 out vec4 result;
 
+#include "gpu/segments.glsl"
+
 #ifdef VOLUMES
 // Several volumes: the samples of all at this place are one sample. Under MIP each volume has its own channel.
 vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
@@ -109,6 +111,24 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 
 #endif
 
+#ifdef PREINTEGRATED
+// The segment around p, with the texels at its two ends.
+vec4 gather_segment(vec4 gathered, vec3 p, vec3 to_eye, vec2 ends) {
+#ifdef WARPED
+  vec3 t = texture_from_object(p);
+  if (!in_volume(t) || !in_data_planes(t)) return gathered;
+#else
+  vec3 t = p;
+#endif
+#ifdef FOCUS_EFFECTS
+  vec2 focus = effects_at(p);
+#else
+  vec2 focus = vec2(1.0, 0.0);
+#endif
+  return under(gathered, segment_color(ends, t, p, to_eye, focus, 1.0));
+}
+#endif
+
 #ifdef CUT_PLANES
 // The nearest cutting plane on the ray: its distance (beyond the interval: none) and colour. Planes are not cut by clipping planes.
 vec4 nearest_plane(PixelRay ray, vec2 interval, inout float nearest) {
@@ -155,9 +175,18 @@ void main() {
   if (interval.x <= interval.y) {
     int first = int(first_sample(interval.x, delta));
     int last = int(last_sample(interval.y, delta));
+#ifdef PREINTEGRATED
+    float front = end_texel(ray_point(ray, float(first) - 0.5));
+#endif
     for (int k = first; k <= last; ++k) {
       vec3 p = ray_point(ray, float(k));
+#ifdef PREINTEGRATED
+      float back = end_texel(ray_point(ray, float(k) + 0.5));
+      gathered = gather_segment(gathered, p, to_eye, vec2(front, back));
+      front = back;
+#else
       gathered = gather(gathered, p, to_eye);
+#endif
 #if defined(EARLY_TERMINATION) && defined(MODE_DVR)
       if (gathered.a >= early_termination) break;
 #endif

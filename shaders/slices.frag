@@ -8,7 +8,8 @@
 // WARP_FRAGMENT evaluates the warps here; AXIS_TABLES reads them from Cohen's tables. HIGHLIGHT and ATTENUATION follow the
 // coordinate where the sample is shown; under MIP the winner of the depth test keeps its own. VOLUMES: there are several
 // (gpu/one_volume.glsl); under MIP each has its own channel. SHELLS: polygons only cover what a shell about the eye can
-// colour, and each fragment takes the sample that rays.frag would take there.
+// colour, and each fragment takes the sample that rays.frag would take there. PREINTEGRATED: it stands for the segment of
+// its ray around it (gpu/segments.glsl).
 
 #include "lib/opacity.glsl"
 #include "lib/composite.glsl"
@@ -27,7 +28,7 @@
 #include "gpu/light.glsl"
 #endif
 #include "gpu/focus_effects.glsl"
-#ifdef SHELLS
+#if defined(SHELLS) || defined(PREINTEGRATED)
 #include "lib/ray.glsl"
 #include "gpu/ray.glsl"
 #endif
@@ -45,12 +46,16 @@ in vec4 homogeneous_coordinate;
 #endif
 out vec4 result;
 
+#if defined(SHELLS) || defined(PREINTEGRATED)
+uniform vec2 place_from_pixel;  // pixels to [0, 2]
+vec2 place() { return place_from_pixel * gl_FragCoord.xy - 1.0; }
+#endif
+
 // Where the sample is shown.
 #ifdef SHELLS
-uniform vec2 place_from_pixel;  // pixels to [0, 2]
 flat in float shell;
 vec3 sample_point() {
-  PixelRay ray = ray_through(place_from_pixel * gl_FragCoord.xy - 1.0);
+  PixelRay ray = ray_through(place());
   vec2 interval = clipped(hit_box(ray, object_low, object_high), ray);
   if (shell < first_sample(interval.x, delta) || shell > last_sample(interval.y, delta)) discard;
   return ray_point(ray, shell);
@@ -60,12 +65,29 @@ vec3 sample_point() { return object_coordinate; }
 #endif
 
 #if defined(CORRECT_FRAGMENT)
-float sample_ratio() {
+float stretch() {
   vec2 slope = slope_from_pixel.xy * gl_FragCoord.xy + slope_from_pixel.zw;
-  return distance_ratio * sqrt(1.0 + dot(slope, slope));
+  return sqrt(1.0 + dot(slope, slope));
 }
+float sample_ratio() { return distance_ratio * stretch(); }
 #else
+float stretch() { return 1.0; }
 float sample_ratio() { return distance_ratio; }
+#endif
+
+#include "gpu/segments.glsl"
+#ifdef PREINTEGRATED
+// Half the way from one sample to the next on this fragment's ray, away from the eye.
+vec3 half_step() {
+#if defined(SHELLS)
+  return 0.5 * delta * ray_through(place()).direction;
+#elif defined(PERSPECTIVE)
+  vec2 at = place();
+  return 0.5 * delta * (frame.forward + at.x * frame.right + at.y * frame.up);
+#else
+  return 0.5 * delta * frame.forward;
+#endif
+}
 #endif
 
 vec3 direction_to_eye(vec3 p) {
@@ -123,7 +145,14 @@ void main() {
 #elif defined(FOCUS_EFFECTS)
   vec2 focus = effects_at(p);
 #endif
-#if defined(CLASSIFICATION_PRE)
+#if defined(PREINTEGRATED)
+#ifndef FOCUS_EFFECTS
+  vec2 focus = vec2(1.0, 0.0);
+#endif
+  vec3 ahead = half_step();
+  result = segment_color(vec2(end_texel(p - ahead), end_texel(p + ahead)), texture_coordinate, p, direction_to_eye(p),
+                         focus, stretch());
+#elif defined(CLASSIFICATION_PRE)
   vec4 sample_color = classified_sample(texture_coordinate);
 #if defined(MODE_XRAY)
 #if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)

@@ -85,8 +85,10 @@ const std::vector<EnumName<GradientResolution>>& names_of(GradientResolution) {
 }
 
 const std::vector<EnumName<Classification>>& names_of(Classification) {
-  static const std::vector<EnumName<Classification>> names = {{Classification::post, "post"},
-                                                              {Classification::pre, "pre"}};
+  static const std::vector<EnumName<Classification>> names = {
+      {Classification::post, "post"},
+      {Classification::pre, "pre"},
+      {Classification::preintegrated, "preintegrated"}};
   return names;
 }
 

@@ -92,6 +92,30 @@ void validate_pre_classification(const RenderSettings& render, const CameraSetti
   }
 }
 
+/// Segments need both their ends, of one volume at one resolution.
+void validate_preintegrated(const Scene& scene) {
+  const RenderSettings& render = scene.render;
+  const auto refuse = [](const std::string& problem, const std::string& remedy) {
+    throw UsageError("render.classification 'preintegrated' " + problem +
+                     "; set render.classification to post or " + remedy);
+  };
+  if (render.mode != Mode::dvr)
+    refuse("holds what segments emit and absorb, of which mode '" + word(render.mode) + "' needs neither",
+           "render.mode to dvr");
+  if (render.pipeline == Pipeline::tessellated)
+    refuse("looks in front of each slice and behind it, where the triangles of pipeline 'tessellated' hold "
+           "nothing",
+           "render.pipeline to fragment, axis, grid, rays or reference");
+  if (render.tiles != std::array<std::size_t, 3>{1, 1, 1})
+    refuse("looks beyond the tile of a fragment", "render.tiles to [1,1,1]");
+  if (render.footprint == Footprint::mip)
+    refuse("classifies values of one resolution", "render.footprint to point");
+  if (render.levels != 1)
+    refuse("classifies values of one resolution", "render.levels to 1");
+  if (render.transfer_texture != TransferTexture::rgba32f)
+    refuse("has a table of floats of its own", "render.transfer_texture to rgba32f");
+}
+
 /// What hardware without shaders could do (LaMar 2001).
 void validate_fixed_function(const RenderSettings& render) {
   const auto refuse = [](const std::string& problem, const std::string& key, const std::string& value) {
@@ -353,6 +377,8 @@ void validate_several(const Scene& scene) {
   }
   if (render.classification == Classification::pre)
     refuse("are combined after classification; set render.classification to post");
+  if (render.classification == Classification::preintegrated)
+    refuse("have no one pair of values for a segment; set render.classification to post");
   if (render.tiles != std::array<std::size_t, 3>{1, 1, 1} || render.levels != 1)
     refuse("are held in one texture each; set render.tiles to [1,1,1] and render.levels to 1");
   if (render.footprint == Footprint::mip)
@@ -478,6 +504,8 @@ void validate(const Scene& scene) {
   validate_render(scene.render);
   if (scene.render.classification == Classification::pre)
     validate_pre_classification(scene.render, scene.camera);
+  if (scene.render.classification == Classification::preintegrated)
+    validate_preintegrated(scene);
   if (scene.light.direction && glm::length(*scene.light.direction) == 0) {
     throw UsageError("light.direction is the zero vector; give a direction");
   }

@@ -65,8 +65,9 @@ enum class Gradient { forward, central, prefiltered, precomputed };
 enum class GradientSpace { data, object };
 /// Of the Gaussian copy, as a share of the volume's voxels on each axis.
 enum class GradientResolution { full, half, quarter };
-/// `pre`: voxels become colours of 8 bits before they are interpolated.
-enum class Classification { post, pre };
+/// `pre`: voxels become colours of 8 bits before they are interpolated; `preintegrated`: samples stand for
+/// segments (Engel, Kraus and Ertl 2001).
+enum class Classification { post, pre, preintegrated };
 enum class Filter { nearest, linear, linear_exact, cubic };
 /// `mip`: samples read the level of a mip pyramid that their spacing in the data asks for (docs/pipeline.md).
 enum class Footprint { point, mip };
