@@ -1,4 +1,5 @@
-// Second pass of MIP by slices: classifies the largest value of each pixel once, at the end.
+// Second pass of MIP by slices: classifies the largest value of each pixel once, at the end; MODE_MINIP the smallest,
+// MODE_AVERAGE the mean.
 
 #include "lib/composite.glsl"
 #ifdef VOLUMES
@@ -18,6 +19,9 @@ out vec4 result;
 
 void main() {
   vec4 largest = texelFetch(maxima, ivec2(gl_FragCoord.xy), 0);
+#ifdef MODE_AVERAGE
+  largest.r /= max(largest.a, 1.0);
+#endif
 #ifdef VOLUMES
   vec4 shown = color_of_units(largest);
   result = associated(shown.rgb, shown.a);

@@ -18,7 +18,6 @@
 #include "gpu/light.glsl"
 #endif
 #include "gpu/focus_effects.glsl"
-#include "gpu/ray.glsl"
 #ifdef CUT_PLANES
 #include "gpu/plane.glsl"
 uniform CutPlane planes[CUT_PLANES];
@@ -28,13 +27,43 @@ uniform float distance_ratio;    // Δ/Δ₀, or 1 without correction
 uniform float early_termination;
 uniform vec3 to_eye_axis;
 uniform mat3 world_from_direction;  // texture-space vectors to world space
+#ifdef JITTER
+#include "lib/jitter.glsl"
+uniform float jitter;
+uniform int jitter_seed;
+#endif
+
+#include "gpu/region.glsl"
+#include "gpu/ray.glsl"
+#include "gpu/iso.glsl"
+#include "gpu/segments.glsl"
 
 in vec2 place;
 out vec4 result;
 
-#include "gpu/segments.glsl"
-
-#ifdef VOLUMES
+#if defined(MODE_ISO)
+// The first surface between two neighbouring samples: its point, and 1 where there is one.
+vec4 first_surface(PixelRay ray, int first, int last, float offset) {
+  vec4 hit = vec4(0.0);
+  bool had = false;
+  float before_value = 0.0;
+  vec3 before = vec3(0.0);
+  for (int k = first; k <= last; ++k) {
+    vec3 p = ray_point(ray, float(k) + offset);
+    vec3 t = shown_point(p);
+    bool has = shows_data(t);
+    float value = displayed_value(t);
+    if (had && has && (value < isovalue) != (before_value < isovalue)) {
+      hit = vec4(refined_crossing(before, p, before_value, value, isovalue), 1.0);
+      break;
+    }
+    had = has;
+    before_value = value;
+    before = p;
+  }
+  return hit;
+}
+#elif defined(VOLUMES)
 // Several volumes: the samples of all at this place are one sample. Under MIP each volume has its own channel.
 vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #if defined(MODE_MIP)
@@ -78,14 +107,22 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #endif
 #else
 #if defined(MODE_MIP)
+#if defined(MODE_AVERAGE)
+  return gathered + vec4(displayed_value(t), 0.0, 0.0, 1.0);
+#else
+#ifdef MODE_MINIP
+  float value = -displayed_value(t);
+#else
   float value = displayed_value(t);
+#endif
 #ifdef FOCUS_EFFECTS
   return value > gathered.x ? vec4(value, effects_at(p), 1.0) : gathered;
 #else
   return vec4(max(gathered.x, value), 0.0, 0.0, 1.0);
 #endif
+#endif
 #else
-  vec4 sample_color = classify_texel(displayed_texel(t));
+  vec4 sample_color = plain_color(t, p);
 #if defined(MODE_XRAY)
 #ifdef FOCUS_EFFECTS
   vec4 grey = with_effects(vec4(1.0, 1.0, 1.0, sample_color.a * distance_ratio), effects_at(p));
@@ -167,19 +204,29 @@ void main() {
   interval.y = min(interval.y, stop);
 #endif
   interval = clipped(interval, ray);
-#if defined(MODE_MIP) && !defined(VOLUMES)
+#if defined(MODE_MIP) && !defined(VOLUMES) && !defined(MODE_AVERAGE)
   vec4 gathered = vec4(-3.0e38, 0.0, 0.0, 0.0);
 #else
   vec4 gathered = vec4(0.0);
 #endif
+#ifdef JITTER
+  uvec2 pixel = uvec2(gl_FragCoord.xy);
+  float offset = jitter * pixel_offset(pixel.x, pixel.y, uint(jitter_seed));
+#else
+  float offset = 0.0;
+#endif
   if (interval.x <= interval.y) {
-    int first = int(first_sample(interval.x, delta));
-    int last = int(last_sample(interval.y, delta));
+    int first = int(first_sample(interval.x - offset * delta, delta));
+    int last = int(last_sample(interval.y - offset * delta, delta));
+#ifdef MODE_ISO
+    vec4 hit = first_surface(ray, first, last, offset);
+    if (hit.w > 0.0) gathered = vec4(surface_color(hit.xyz, to_eye), 1.0);
+#else
 #ifdef PREINTEGRATED
     float front = end_texel(ray_point(ray, float(first) - 0.5));
 #endif
     for (int k = first; k <= last; ++k) {
-      vec3 p = ray_point(ray, float(k));
+      vec3 p = ray_point(ray, float(k) + offset);
 #ifdef PREINTEGRATED
       float back = end_texel(ray_point(ray, float(k) + 0.5));
       gathered = gather_segment(gathered, p, to_eye, vec2(front, back));
@@ -191,13 +238,20 @@ void main() {
       if (gathered.a >= early_termination) break;
 #endif
     }
+#endif
   }
 #if defined(MODE_MIP) && defined(VOLUMES)
   vec4 shown = color_of_units(gathered);
   gathered = associated(shown.rgb, shown.a);
 #elif defined(MODE_MIP)
   if (gathered.w > 0.0) {
+#if defined(MODE_AVERAGE)
+    vec4 color = classify(gathered.x / gathered.w);
+#elif defined(MODE_MINIP)
+    vec4 color = classify(-gathered.x);
+#else
     vec4 color = classify(gathered.x);
+#endif
 #ifdef FOCUS_EFFECTS
     color = with_effects(color, gathered.yz);
 #endif

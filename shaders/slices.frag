@@ -1,5 +1,5 @@
-// One sample of a slice. MODE_DVR: associated colour for blending; MODE_MIP: the value, for GL_MAX; MODE_XRAY: the
-// opacity, for summing.
+// One sample of a slice. MODE_DVR: associated colour for blending; MODE_MIP: the value, for GL_MAX (MODE_MINIP: upside
+// down; MODE_AVERAGE: for summing, and 1 to count); MODE_XRAY: the opacity, for summing.
 //
 // CORRECT_CONSTANT corrects the opacity for one distance ratio; CORRECT_FRAGMENT for the distance along this
 // fragment's own ray (Brunet §3.1). CLASSIFICATION_PRE reads colours that are
@@ -28,10 +28,6 @@
 #include "gpu/light.glsl"
 #endif
 #include "gpu/focus_effects.glsl"
-#if defined(SHELLS) || defined(PREINTEGRATED)
-#include "lib/ray.glsl"
-#include "gpu/ray.glsl"
-#endif
 
 uniform float distance_ratio;     // Δ/Δ₀ on the view axis
 uniform vec4 slope_from_pixel;    // perspective: tangents of the ray's angles = xy · gl_FragCoord + zw
@@ -40,29 +36,33 @@ uniform vec3 to_eye_axis;         // world: against the viewing direction
 uniform vec3 eye;                 // world, perspective
 uniform mat4 world_from_texture;
 
+#if defined(SHELLS) || defined(PREINTEGRATED)
+#include "lib/ray.glsl"
+#include "gpu/region.glsl"
+#include "gpu/ray.glsl"
+uniform vec2 place_from_pixel;  // pixels to [0, 2]
+vec2 place() { return place_from_pixel * gl_FragCoord.xy - 1.0; }
+#elif defined(JITTER) || defined(MODE_ISO)
+#include "gpu/region.glsl"
+#include "gpu/step.glsl"
+#endif
+#ifdef JITTER
+#include "lib/jitter.glsl"
+uniform float jitter;
+uniform int jitter_seed;
+in vec3 slice_coordinate;
+vec3 object_coordinate;  // where this pixel's sample is
+#elif defined(SHELLS)
+flat in float shell;
+vec3 object_coordinate;
+#else
 in vec3 object_coordinate;
+#endif
+#include "gpu/iso.glsl"
 #ifdef WARP_TESSELLATED
 in vec4 homogeneous_coordinate;
 #endif
 out vec4 result;
-
-#if defined(SHELLS) || defined(PREINTEGRATED)
-uniform vec2 place_from_pixel;  // pixels to [0, 2]
-vec2 place() { return place_from_pixel * gl_FragCoord.xy - 1.0; }
-#endif
-
-// Where the sample is shown.
-#ifdef SHELLS
-flat in float shell;
-vec3 sample_point() {
-  PixelRay ray = ray_through(place());
-  vec2 interval = clipped(hit_box(ray, object_low, object_high), ray);
-  if (shell < first_sample(interval.x, delta) || shell > last_sample(interval.y, delta)) discard;
-  return ray_point(ray, shell);
-}
-#else
-vec3 sample_point() { return object_coordinate; }
-#endif
 
 #if defined(CORRECT_FRAGMENT)
 float stretch() {
@@ -98,23 +98,57 @@ vec3 direction_to_eye(vec3 p) {
 #endif
 }
 
-#ifdef VOLUMES
+#ifdef JITTER
+// Farther from the eye by a part of the slice distance that is the pixel's own.
+void shift_sample() {
+  uvec2 pixel = uvec2(gl_FragCoord.xy);
+  float offset = jitter * pixel_offset(pixel.x, pixel.y, uint(jitter_seed));
+  object_coordinate = slice_coordinate - offset * step_to_eye(slice_coordinate);
+  if (!in_region(object_coordinate)) discard;
+}
+#elif defined(SHELLS)
+// To where the shell meets this pixel's ray.
+void shift_sample() {
+  PixelRay ray = ray_through(place());
+  vec2 interval = clipped(hit_box(ray, object_low, object_high), ray);
+  if (shell < first_sample(interval.x, delta) || shell > last_sample(interval.y, delta)) discard;
+  object_coordinate = ray_point(ray, shell);
+}
+#else
+void shift_sample() {}
+#endif
+
+#if defined(MODE_ISO)
+// The surface between this slice and the one before it.
+void main() {
+  shift_sample();
+  vec3 before = object_coordinate + step_to_eye(object_coordinate);
+  vec3 here_point = shown_point(object_coordinate);
+  vec3 before_point = shown_point(before);
+  if (!in_region(before) || !shows_data(here_point) || !shows_data(before_point)) discard;
+  float here_value = displayed_value(here_point);
+  float before_value = displayed_value(before_point);
+  if ((here_value < isovalue) == (before_value < isovalue)) discard;
+  vec3 p = refined_crossing(before, object_coordinate, before_value, here_value, isovalue);
+  result = vec4(surface_color(p, direction_to_eye(p)), 1.0);
+}
+#elif defined(VOLUMES)
 // Several volumes: the samples of all at this place are one sample.
 void main() {
-  vec3 p = sample_point();
+  shift_sample();
 #if defined(MODE_MIP)
-  result = all_units(p);
+  result = all_units(object_coordinate);
 #else
-  vec4 sample_color = all_samples(p, direction_to_eye(p));
+  vec4 sample_color = all_samples(object_coordinate, direction_to_eye(object_coordinate));
 #if defined(MODE_XRAY)
   vec4 grey = vec4(1.0, 1.0, 1.0, sample_color.a * sample_ratio());
 #ifdef FOCUS_EFFECTS
-  grey = with_effects(grey, effects_at(p));
+  grey = with_effects(grey, effects_at(object_coordinate));
 #endif
   result = associated(grey.rgb, grey.a);
 #else
 #ifdef FOCUS_EFFECTS
-  sample_color = with_effects(sample_color, effects_at(p));
+  sample_color = with_effects(sample_color, effects_at(object_coordinate));
 #endif
   result = associated(sample_color.rgb, corrected_opacity(sample_color.a, sample_ratio()));
 #endif
@@ -122,33 +156,34 @@ void main() {
 }
 #else
 void main() {
-  vec3 p = sample_point();
+  shift_sample();
 #if defined(WARP_TESSELLATED)
   vec3 texture_coordinate = homogeneous_coordinate.xyz / homogeneous_coordinate.w;
 #ifdef WARP_SUBDIVIDED
   if (!in_volume(texture_coordinate) || !in_data_planes(texture_coordinate)) discard;
 #endif
 #elif defined(AXIS_TABLES)
-  AxisTexels texels = fetch_axis_tables(p);
-  vec3 texture_coordinate = axis_texture_from_object(texels, p);
+  AxisTexels texels = fetch_axis_tables(object_coordinate);
+  vec3 texture_coordinate = axis_texture_from_object(texels, object_coordinate);
 #ifdef DATA_PLANES
   if (!in_data_planes(texture_coordinate)) discard;
 #endif
 #elif defined(WARP_FRAGMENT)
-  vec3 texture_coordinate = texture_from_object(p);
+  vec3 texture_coordinate = texture_from_object(object_coordinate);
   if (!in_volume(texture_coordinate) || !in_data_planes(texture_coordinate)) discard;
 #else
-  vec3 texture_coordinate = p;
+  vec3 texture_coordinate = object_coordinate;
 #endif
 #if defined(FOCUS_EFFECTS) && defined(AXIS_TABLES)
   vec2 focus = axis_effects(texels);
 #elif defined(FOCUS_EFFECTS)
-  vec2 focus = effects_at(p);
+  vec2 focus = effects_at(object_coordinate);
 #endif
 #if defined(PREINTEGRATED)
 #ifndef FOCUS_EFFECTS
   vec2 focus = vec2(1.0, 0.0);
 #endif
+  vec3 p = object_coordinate;
   vec3 ahead = half_step();
   result = segment_color(vec2(end_texel(p - ahead), end_texel(p + ahead)), texture_coordinate, p, direction_to_eye(p),
                          focus, stretch());
@@ -165,11 +200,11 @@ void main() {
 #else
 #if defined(LEVELS) && LEVELS > 1
 #if defined(FOOTPRINT)
-  choose_footprint_level(p);
+  choose_footprint_level(object_coordinate);
 #elif defined(WARP_TESSELLATED)
   choose_level(homogeneous_coordinate.w);
 #elif defined(WARP_FRAGMENT)
-  choose_level(magnification(p));
+  choose_level(magnification(object_coordinate));
 #endif
 #endif
 #if defined(MODE_MIP)
@@ -182,7 +217,7 @@ void main() {
   result = vec4(unit, 0.0, 0.0, 1.0);
 #endif
 #else
-  vec4 sample_color = classify_texel(displayed_texel(texture_coordinate));
+  vec4 sample_color = plain_color(texture_coordinate, object_coordinate);
 #if defined(MODE_XRAY)
 #if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)
   float weight = sample_color.a * sample_ratio();
@@ -197,7 +232,7 @@ void main() {
 #endif
 #else
 #ifdef SHADED
-  sample_color.rgb = shade(sample_color.rgb, texture_coordinate, p, direction_to_eye(p));
+  sample_color.rgb = shade(sample_color.rgb, texture_coordinate, object_coordinate, direction_to_eye(object_coordinate));
 #endif
 #ifdef FOCUS_EFFECTS
   sample_color = with_effects(sample_color, focus);

@@ -3,6 +3,9 @@
 
 uniform mat4 clip_from_texture;
 in vec3 corner;
+#if defined(JITTER) || defined(SHELLS)
+#define object_coordinate slice_coordinate
+#endif
 out vec3 object_coordinate;
 #ifdef WARP_TESSELLATED
 in vec4 look;

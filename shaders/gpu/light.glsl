@@ -1,7 +1,34 @@
 // Shading of a sample (lib/shade.glsl): SHADED with SHADING_DIFFUSE, SHADING_PHONG or SHADING_TONE.
 
-#ifdef SHADED
+// MODULATED: opacities that follow the gradient (Levoy 1988).
+
+#if defined(SHADED) || defined(MODULATED) || defined(TRANSFER_2D)
 uniform mat3 world_from_gradient;    // inverse transpose of world_from_texture
+#endif
+
+#ifdef MODULATED
+uniform float full_gradient;  // data units per world unit
+
+// The factor on the opacity of a sample.
+float opacity_factor(vec3 t, vec3 p) {
+  return min(length(world_from_gradient * shown_gradient(t, p)) / full_gradient, 1.0);
+}
+#endif
+
+// Straight colour and opacity per reference length of the data at t, shown at p, without light.
+vec4 plain_color(vec3 t, vec3 p) {
+#if defined(TRANSFER_2D)
+  return classify_2d(displayed_value(t), length(world_from_gradient * shown_gradient(t, p)));
+#else
+  vec4 color = classify_texel(displayed_texel(t));
+#ifdef MODULATED
+  color.a *= opacity_factor(t, p);
+#endif
+  return color;
+#endif
+}
+
+#ifdef SHADED
 uniform vec3 to_light;               // world space, unit; ignored with LIGHT_AT_EYE
 uniform float ambient;
 uniform float diffuse;

@@ -15,7 +15,7 @@ uniform vec2 unit_from_value;  // MIP: value mapped to [1/255, 1]; 0 is no value
 vec4 own_sample(vec3 first, vec3 to_eye) {
   vec3 p = (own_from_first * vec4(first, 1.0)).xyz;
   vec3 t = texture_from_object(p);
-  vec4 color = classify_texel(displayed_texel(t));
+  vec4 color = plain_color(t, p);
 #ifdef SHADED
   color.rgb = shade(color.rgb, t, p, to_eye);
 #endif

@@ -1,11 +1,7 @@
-// The rays of a picture and the part of each that is sampled (lib/ray.glsl).
+// The rays of a picture and the part of each that is sampled (lib/ray.glsl, gpu/region.glsl).
 
 uniform RayFrame frame;
-uniform float delta;       // Δ, world units
-uniform vec3 object_low;   // bounds of the displayed volume, texture coordinates
-uniform vec3 object_high;
-uniform int clip_count;
-uniform vec4 clip_planes[MAX_CLIP_PLANES];
+uniform float delta;  // Δ, world units
 
 // (x, y) in [−1, 1]², y up.
 PixelRay ray_through(vec2 place) {
@@ -22,5 +18,5 @@ vec2 clipped(vec2 interval, PixelRay ray) {
   return interval;
 }
 
-// Sample k.
+// Sample k; fractions are between samples.
 vec3 ray_point(PixelRay ray, float k) { return ray.origin + ((k + 0.5) * delta) * ray.direction; }

@@ -8,10 +8,11 @@
 namespace slicelens {
 
 /// Base of all errors that the program reports as one line. The message names the file, key or value at fault
-/// and says what would be right. It holds no newline.
+/// and says what would be right. It is one line: control characters (of a file's name or contents) become
+/// '?'.
 class Error : public std::runtime_error {
 public:
-  explicit Error(const std::string& message) : std::runtime_error(message) {}
+  explicit Error(const std::string& message);
 };
 
 /// The caller asked for something that is not valid: a wrong option, scene key, value or combination. Exit

@@ -21,4 +21,9 @@ int text_width(const std::string& text);
 /// set (ASCII without some signs) as an empty box.
 void draw_text(Image& image, int x, int y, const std::string& text, const glm::vec3& color);
 
+/// The same in white, each dot of a letter `scale` × `scale` pixels, in a black outline of half as many (at
+/// least one); black in white where the picture is bright. A small m stays small: a unit of length is not a
+/// million.
+void draw_outlined_text(Image& image, int x, int y, const std::string& text, int scale);
+
 } // namespace slicelens

@@ -130,6 +130,8 @@ void fill(const PreparedScene& prepared, Volume& result, double outside, const P
 } // namespace
 
 Volume bake(const PreparedScene& prepared, const BakeOptions& options, const Progress& progress) {
+  if (!prepared.volume.colors.rgba.empty())
+    throw UsageError("a volume of colours cannot be baked; choose one component with volume.component");
   Volume result = placed(prepared, options);
   check_room(result);
   const double outside = options.outside.value_or(prepared.volume.min);

@@ -19,7 +19,7 @@ struct BakeOptions {
 /// v∘u on voxels over the displayed volume's bounds, with the volume's axes, where the picture shows it:
 /// samples by render.filter in double precision, on all cores. Clipping, effects and the transfer function
 /// are the picture's, not the volume's. Throws LimitError for more voxels than fit the memory, UsageError for
-/// an outside value that the type cannot hold.
+/// an outside value that the type cannot hold and for volumes of colours.
 Volume bake(const PreparedScene& prepared, const BakeOptions& options, const Progress& progress);
 
 } // namespace slicelens

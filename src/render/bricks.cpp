@@ -45,7 +45,7 @@ Brick brick_of(const PreparedScene& prepared, const Part& part, std::size_t leve
   const auto dims = level_dims(prepared.volume.dims, level);
   const double edge = std::ldexp(1, static_cast<int>(level)); // voxels of level 0 in one of this level
   // Steps of the gradient follow the level blended to, at most the next coarser one: two voxels of this.
-  const double step = render.shading == Shading::none ? 0 : level + 1 < prepared.levels ? 2 : 1;
+  const double step = !uses_gradients(prepared.scene) ? 0 : level + 1 < prepared.levels ? 2 : 1;
   const double filter = render.filter == Filter::cubic ? 1 : 0; // beyond the voxels of linear interpolation
   const double below = (render.gradient == Gradient::central ? step : 0) + filter;
   const double above = step + filter;

@@ -119,6 +119,20 @@ gl::Texture upload_transfer(const gl::Functions& gl, const PreparedScene& prepar
                              std::as_bytes(std::span(table.rgba)));
 }
 
+void upload_transfer_2d(const gl::Functions& gl, const PreparedScene& prepared, GpuScene& scene) {
+  const TransferTable2D table =
+      make_table(prepared.scene.transfer.shapes, prepared.volume.min, prepared.volume.max);
+  gl::TextureSpec spec;
+  spec.format = GL_RGBA32F;
+  scene.transfer_2d =
+      gl::make_texture_2d(gl, spec, {table.width, table.height}, std::as_bytes(std::span(table.rgba)));
+  const glm::dvec2 size(table.width, table.height);
+  const glm::dvec2 scale = (size - 1.0) / (size * (table.last - table.first));
+  const glm::dvec2 offset = 0.5 / size - scale * table.first;
+  scene.transfer_2d_place = glm::vec4(glm::dvec4(scale, offset));
+  scene.bytes += table.rgba.size() * sizeof(float);
+}
+
 /// The table of classification `preintegrated`. Needs scene.value_from_texel. Returns its bytes.
 std::size_t upload_segments(const gl::Functions& gl, const PreparedScene& prepared, GpuScene& scene) {
   if (prepared.scene.render.classification != Classification::preintegrated)
@@ -227,6 +241,8 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
       is_bricked(prepared) ? brick_voxels(scene.plan) * texel_bytes + transfer_bytes : scene.whole_bytes;
   scene.bytes += scene.gradients.bytes;
   scene.bytes += grid_bytes(maps);
+  if (!prepared.scene.transfer.shapes.empty())
+    upload_transfer_2d(gl, prepared, scene);
   scene.bytes += upload_segments(gl, prepared, scene);
   for (const PreparedScene& other : prepared.others) {
     scene.others.push_back(upload(gl, other, progress));

@@ -67,7 +67,7 @@ GradientTexture upload_gradients(const gl::Functions& gl, const PreparedScene& p
   const auto& dims = prepared.volume.dims;
   GradientTexture made;
   made.voxel = glm::vec3(1.0 / glm::dvec3(dims[0], dims[1], dims[2]));
-  if (render.shading == Shading::none)
+  if (!uses_gradients(prepared.scene))
     return made;
   if (render.gradient == Gradient::prefiltered)
     upload_copy(gl, prepared, made);

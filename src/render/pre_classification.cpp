@@ -30,12 +30,15 @@ std::uint8_t eight_bits(double value) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
 }
 
-Texel classify(const TransferFunction& transfer, double value, double ratio) {
-  const glm::dvec4 color = evaluate(transfer, value);
+Texel associated_texel(const glm::dvec4& color, double ratio) {
   const double alpha =
       color.a >= 1 || ratio == 1 ? std::min(color.a, 1.0) : -std::expm1(ratio * std::log1p(-color.a));
   return {eight_bits(color.r * alpha), eight_bits(color.g * alpha), eight_bits(color.b * alpha),
           eight_bits(alpha)};
+}
+
+Texel classify(const TransferFunction& transfer, double value, double ratio) {
+  return associated_texel(evaluate(transfer, value), ratio);
 }
 
 /// Colours by code − smallest code, for types with few codes.
@@ -91,9 +94,41 @@ private:
   std::vector<Texel> table_;
 };
 
-/// Calls `use` with the classifier of the volume's type.
+/// Voxels with colours of their own: with their own opacities, or those of their luminances.
+class ColorClassifier {
+public:
+  explicit ColorClassifier(const PreparedScene& prepared)
+      : prepared_(prepared), ratio_(baked_ratio(prepared)) {}
+
+  void operator()(std::size_t first, std::span<std::byte> out) const {
+    const VoxelColors& colors = prepared_.volume.colors;
+    const std::size_t count = out.size() / classified_voxel_bytes;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1 << 14), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const std::size_t voxel = first + i;
+        glm::dvec4 color;
+        for (int c = 0; c < 4; ++c)
+          color[c] = colors.rgba[4 * voxel + static_cast<std::size_t>(c)] / 255.0;
+        if (!colors.has_opacity)
+          color.a = evaluate(prepared_.transfer, scalar_at(prepared_.volume, voxel)).a;
+        const Texel texel = associated_texel(color, ratio_);
+        std::memcpy(out.data() + i * classified_voxel_bytes, texel.data(), classified_voxel_bytes);
+      }
+    });
+  }
+
+private:
+  const PreparedScene& prepared_;
+  double ratio_;
+};
+
+/// Calls `use` with the classifier of the volume's colours, or of its type.
 template <class Use>
 void with_classifier(const PreparedScene& prepared, const Use& use) {
+  if (!prepared.volume.colors.rgba.empty()) {
+    use(ColorClassifier(prepared));
+    return;
+  }
   visit_scalar_type(prepared.volume.type,
                     [&](auto* tag) { use(Classifier<std::remove_pointer_t<decltype(tag)>>(prepared)); });
 }

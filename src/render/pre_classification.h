@@ -4,6 +4,8 @@
 // A texel is (C·α', α') rounded to 8 bits, α' = 1 − (1 − α)^(Δ/Δ₀): the correction is baked in once per
 // frame. Mode `xray` sums opacities, so its texels hold α itself. Opacities below 1/510 round to nothing:
 // that is what 8 bits cost.
+//
+// A volume of colours (Volume::colors) has C of its own, and α of its own or by its luminance.
 #pragma once
 
 #include "gl/texture.h"

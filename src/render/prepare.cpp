@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "render/bricks.h"
 #include "scene/camera.h"
+#include "volume/missing.h"
 #include "volume/pyramid.h"
 #include "warp/object_bounds.h"
 
@@ -164,6 +165,17 @@ void prepare_effects(PreparedScene& prepared) {
     prepared.tables = axis_tables_of(prepared);
 }
 
+/// Voxels without a value are drawn as empty: as a value that the transfer function does not show, for maxima
+/// as the smallest one.
+void fill_missing(PreparedScene& prepared) {
+  Volume& volume = prepared.volume;
+  if (volume.non_finite == 0)
+    return;
+  const bool maximum = prepared.scene.render.mode == Mode::mip;
+  const auto empty = maximum ? std::nullopt : empty_value(prepared.transfer, volume.min, volume.max);
+  fill_non_finite(volume, empty.value_or(volume.min));
+}
+
 /// The levels above the first. They depend on the data alone, so those there are stay.
 void prepare_pyramid(PreparedScene& prepared) {
   const std::size_t count = prepared.levels - 1;
@@ -200,27 +212,10 @@ void place(PreparedScene& prepared, const std::optional<glm::dvec3>& middle) {
   volume.origin = at + turned * (steps * placement.scale);
 }
 
-/// The smallest box along the first volume's axes that holds all of them, undeformed: the first one's own
-/// where there is no other.
-Box box_of_all(const PreparedScene& prepared) {
-  if (prepared.others.empty())
-    return prepared.box;
-  Bounds bounds{glm::dvec3(0), glm::dvec3(1)};
-  const glm::dmat4 to_first = texture_from_world(prepared.box);
-  for (const PreparedScene& other : prepared.others) {
-    for (const glm::dvec3& corner : corners(other.box)) {
-      const glm::dvec3 t(to_first * glm::dvec4(corner, 1));
-      bounds.low = glm::min(bounds.low, t);
-      bounds.high = glm::max(bounds.high, t);
-    }
-  }
-  const glm::dmat4 moved = glm::translate(prepared.box.world_from_texture, bounds.low);
-  return {glm::scale(moved, bounds.high - bounds.low)};
-}
-
 /// All that one volume needs but the view. `first`: whose texture coordinates clipping planes are given in.
 void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
   const Scene& scene = prepared.scene;
+  fill_missing(prepared);
   const double h = smallest_spacing(prepared.volume);
   prepared.spacing = spacing;
   prepared.unit_distance = prepared.transfer.unit_distance.value_or(h);
@@ -232,6 +227,16 @@ void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
     const Plane world{plane.normal, glm::dot(plane.normal, world_from_texture(first, plane.point))};
     auto& planes = plane.space == ClipSpace::texture ? prepared.data_clip : prepared.object_clip;
     planes.push_back(pull_back(world, prepared.box.world_from_texture));
+  }
+  if (scene.crop) {
+    auto& planes = scene.crop->space == ClipSpace::texture ? prepared.data_clip : prepared.object_clip;
+    const glm::dmat4 first_from_own = texture_from_world(first) * prepared.box.world_from_texture;
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::dvec3 normal(0);
+      normal[axis] = 1;
+      planes.push_back(pull_back({normal, scene.crop->low[axis]}, first_from_own));
+      planes.push_back(pull_back({-normal, -scene.crop->high[axis]}, first_from_own));
+    }
   }
   prepared.gradient_space = gradient_space_of(scene);
   prepare_warps(prepared);
@@ -261,7 +266,55 @@ void include_others(PreparedScene& prepared) {
 
 } // namespace
 
+Box box_of_all(const PreparedScene& prepared) {
+  if (prepared.others.empty())
+    return prepared.box;
+  Bounds bounds{glm::dvec3(0), glm::dvec3(1)};
+  const glm::dmat4 to_first = texture_from_world(prepared.box);
+  for (const PreparedScene& other : prepared.others) {
+    for (const glm::dvec3& corner : corners(other.box)) {
+      const glm::dvec3 t(to_first * glm::dvec4(corner, 1));
+      bounds.low = glm::min(bounds.low, t);
+      bounds.high = glm::max(bounds.high, t);
+    }
+  }
+  const glm::dmat4 moved = glm::translate(prepared.box.world_from_texture, bounds.low);
+  return {glm::scale(moved, bounds.high - bounds.low)};
+}
+
+namespace {
+
+/// A volume of colours is drawn in them, as voxels that are classified already.
+void draw_own_colors(PreparedScene& prepared) {
+  bool colored = false;
+  for (std::size_t i = 0; i < volume_count(prepared); ++i)
+    colored = colored || !volume_at(prepared, i).volume.colors.rgba.empty();
+  if (!colored)
+    return;
+  const std::string instead = "; or choose one component with volume.component";
+  if (volume_count(prepared) > 1)
+    throw UsageError("several volumes are combined after classification, and one of these is a volume of "
+                     "colours; show it alone" +
+                     instead);
+  if (prepared.scene.overlay.legend)
+    throw UsageError(
+        "overlay.legend shows a transfer function, and the volume has colours of its own; set it "
+        "to false" +
+        instead);
+  prepared.scene.render.classification = Classification::pre;
+  try {
+    validate(prepared.scene);
+  } catch (const UsageError& error) {
+    throw UsageError("a volume of colours is always drawn as render.classification 'pre' (volume.component "
+                     "shows one component instead): " +
+                     std::string(error.what()));
+  }
+}
+
+} // namespace
+
 void prepare_again(PreparedScene& prepared) {
+  draw_own_colors(prepared);
   place(prepared, std::nullopt);
   prepared.box = box_of(prepared.volume);
   double h = smallest_spacing(prepared.volume);
@@ -321,6 +374,10 @@ MapGridError map_grid_error(const PreparedScene& prepared) {
   const auto& dims = prepared.volume.dims;
   return map_grid_error(*prepared.map_grid->grid, prepared.maps, prepared.space,
                         glm::dvec3(dims[0], dims[1], dims[2]));
+}
+
+double isovalue_of(const PreparedScene& prepared) {
+  return prepared.scene.render.isovalue.value_or(0.5 * (prepared.volume.min + prepared.volume.max));
 }
 
 double axis_distance_ratio(const PreparedScene& prepared) {

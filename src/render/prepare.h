@@ -90,6 +90,10 @@ inline const PreparedScene& volume_at(const PreparedScene& prepared, std::size_t
   return index == 0 ? prepared : prepared.others[index - 1];
 }
 
+/// The smallest box along the first volume's axes that holds all of them, undeformed: the first one's own
+/// where there is no other. The camera looks at its centre.
+Box box_of_all(const PreparedScene& prepared);
+
 /// Volume `index` alone, seen as in the whole. Moves the data out of `prepared`.
 PreparedScene one_volume(PreparedScene prepared, std::size_t index);
 
@@ -106,6 +110,9 @@ void set_volume(PreparedScene& prepared, Volume volume);
 
 /// The same data seen by another camera or with other render settings; nothing is read again.
 void prepare_again(PreparedScene& prepared);
+
+/// Of mode `iso`: render.isovalue, or the middle of the data's range.
+double isovalue_of(const PreparedScene& prepared);
 
 /// Δ/Δ₀: exponent of the opacity correction on the view axis and along rays (docs/pipeline.md).
 double axis_distance_ratio(const PreparedScene& prepared);

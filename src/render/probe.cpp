@@ -1,5 +1,6 @@
 #include "render/probe.h"
 
+#include "core/errors.h"
 #include "gl/check.h"
 #include "gl/state.h"
 #include "gl/target.h"
@@ -31,7 +32,7 @@ gl::Program probe_program(const gl::Functions& gl, const PreparedScene& prepared
   std::vector<std::string> macros = common_macros(prepared);
   if (place)
     macros.emplace_back("PROBE_PLACE");
-  if (prepared.scene.render.shading == Shading::none) { // else gradients are those of the shading
+  if (!uses_gradients(prepared.scene)) { // else gradients are those of the shading
     macros.emplace_back("GRADIENTS");
     macros.emplace_back("GRADIENT_CENTRAL");
     if (prepared.gradient_space == GradientSpace::object)
@@ -103,6 +104,8 @@ int probe_sample_count(const PreparedScene& prepared, const ProbeLine& line) {
 
 std::vector<ProbeSample> sample_line(const PreparedScene& prepared, const gl::Context& context,
                                      const ProbeLine& line, int count) {
+  if (!prepared.volume.colors.rgba.empty())
+    throw UsageError("a volume of colours has no values to pick; choose one component with volume.component");
   const gl::Functions& gl = context.functions();
   const GpuScene scene = upload(gl, prepared, {});
   const std::vector<float> places = rasterise(gl, prepared, scene, line, count, true);

@@ -40,7 +40,8 @@ inline constexpr int max_probe_samples = 16384;
 int probe_sample_count(const PreparedScene& prepared, const ProbeLine& line);
 
 /// `count` samples at (k+½)/count of the line: rasterises it through the scene's shaders and reads it back.
-/// The scene must be drawn by `slices` or `fragment`, unclassified. Throws LimitError, GraphicsError.
+/// The scene must be drawn by `slices` or `fragment`, unclassified. Throws LimitError, GraphicsError,
+/// UsageError for a volume of colours.
 std::vector<ProbeSample> sample_line(const PreparedScene& prepared, const gl::Context& context,
                                      const ProbeLine& line, int count);
 

@@ -6,7 +6,7 @@
 
 namespace slicelens {
 
-/// Where rays run and end. The program must be in use.
+/// Where rays run; where they end is set_common_uniforms'. The program must be in use.
 void set_ray_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared);
 
 } // namespace slicelens

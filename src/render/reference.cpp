@@ -27,6 +27,7 @@ namespace {
 // they take from their host (uniforms and samplers in GLSL) are its members.
 using namespace glm;
 using real = double;
+using uint = std::uint32_t;
 using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
@@ -34,6 +35,7 @@ using vec4 = glm::dvec4;
 struct SharedFunctions {
 #include "lib/combine.glsl"
 #include "lib/composite.glsl"
+#include "lib/jitter.glsl"
 #include "lib/opacity.glsl"
 #include "lib/ray.glsl"
 #include "lib/segment.glsl"
@@ -46,10 +48,10 @@ struct VolumeSampler {
   /// Straight colour, and opacity per reference length of the first volume, at a point of the first one's
   /// texture coordinates; nothing outside.
   virtual vec4 color(vec3 first, vec3 to_eye) = 0;
-  /// The data value there; −∞ outside.
-  virtual real value(vec3 first) = 0;
-  /// Colour and opacity of a value, as above.
-  virtual vec4 classified(real value) const = 0;
+  /// The data value there, negated under `minip`; −∞ outside.
+  virtual real extreme(vec3 first) = 0;
+  /// Colour and opacity of the largest of these, as above.
+  virtual vec4 classified(real extreme) const = 0;
 };
 using VolumeSamplers = std::vector<std::unique_ptr<VolumeSampler>>;
 
@@ -210,9 +212,48 @@ struct Tracer : SharedFunctions {
     return vec4(mix(vec3(color), prepared.effects.highlight_color, focus.y), color.w * focus.x);
   }
 
+  /// −1 where the smallest value is looked for.
+  real sign() const { return prepared.scene.render.mode == Mode::minip ? -1 : 1; }
+
+  /// The value shown at p, for lib/iso.glsl.
+  real iso_value(vec3 p) const { return displayed_value(data_point(p)); }
+
+#include "lib/iso.glsl"
+
+  /// Mode `iso`: the first surface between two of the samples `first` to `last`, opaque.
+  vec4 first_surface(const SharedFunctions::PixelRay& ray, std::int64_t first, std::int64_t last, real offset,
+                     vec3 to_eye) {
+    const real iso = isovalue_of(prepared);
+    bool had = false;
+    real before_value = 0;
+    vec3 before(0);
+    for (std::int64_t k = first; k <= last; ++k) {
+      const vec3 p = ray.origin + ((static_cast<real>(k) + 0.5 + offset) * prepared.spacing) * ray.direction;
+      const vec3 t = data_point(p);
+      const bool has = !is_warped(prepared) || shows_data(t);
+      const real value = displayed_value(t);
+      if (had && has && (value < iso) != (before_value < iso)) {
+        const vec3 hit = refined_crossing(before, p, before_value, value, iso);
+        vec3 color(evaluate(prepared.transfer, iso));
+        if (prepared.scene.render.shading != Shading::none)
+          color = shaded(color, data_point(hit), hit, to_eye);
+        return vec4(vec3(with_effects(vec4(color, 1), focus_at(hit))), 1);
+      }
+      had = has;
+      before_value = value;
+      before = p;
+    }
+    return vec4(0);
+  }
+
   /// Straight colour and opacity per own reference length.
   vec4 sample_color(vec3 t, vec3 p, vec3 to_eye) {
-    const vec4 color = evaluate(prepared.transfer, displayed_value(t));
+    const auto& shapes = prepared.scene.transfer.shapes;
+    vec4 color = shapes.empty() ? evaluate(prepared.transfer, displayed_value(t))
+                                : evaluate(shapes, displayed_value(t),
+                                           length(world_from_gradient * shown_gradient(t, p)));
+    if (const auto& full = prepared.scene.render.modulate_by_gradient; full && color.w > 0)
+      color.w *= min(length(world_from_gradient * shown_gradient(t, p)) / *full, 1.0);
     if (prepared.scene.render.shading == Shading::none || color.w == 0)
       return color;
     return vec4(shaded(vec3(color), t, p, to_eye), color.w);
@@ -223,12 +264,12 @@ struct Tracer : SharedFunctions {
     const Mode mode = prepared.scene.render.mode;
     vec4 samples[max_volumes];
     for (std::size_t i = 0; i < volumes.size(); ++i) {
-      if (mode == Mode::mip)
-        gathered[static_cast<int>(i)] = max(gathered[static_cast<int>(i)], volumes[i]->value(p));
+      if (classifies_last(mode))
+        gathered[static_cast<int>(i)] = max(gathered[static_cast<int>(i)], volumes[i]->extreme(p));
       else
         samples[i] = volumes[i]->color(p, to_eye);
     }
-    if (mode == Mode::mip)
+    if (classifies_last(mode))
       return gathered;
     vec4 color =
         this->combined(samples, static_cast<int>(volumes.size()), static_cast<int>(prepared.scene.combine));
@@ -280,12 +321,14 @@ struct Tracer : SharedFunctions {
       const vec4 color = classified_sample(t);
       return mode == Mode::xray ? gathered + vec4(color.w * ratio) : this->under(gathered, color);
     }
-    if (mode == Mode::mip) {
-      const real value = displayed_value(t);
+    if (mode == Mode::average)
+      return gathered + vec4(displayed_value(t), 0, 0, 1);
+    if (mode == Mode::mip || mode == Mode::minip) {
+      const real value = sign() * displayed_value(t);
       return value > gathered.x ? vec4(value, focus_at(p), 1) : gathered;
     }
     if (mode == Mode::xray) {
-      const vec4 color = evaluate(prepared.transfer, displayed_value(t));
+      const vec4 color = sample_color(t, p, to_eye);
       const vec4 grey = with_effects(vec4(1, 1, 1, color.w * ratio), focus_at(p));
       return gathered + this->associated(vec3(grey), grey.w);
     }
@@ -315,7 +358,8 @@ struct Tracer : SharedFunctions {
     return color;
   }
 
-  vec4 trace(const SharedFunctions::RayFrame& frame, bool perspective, real x, real y) {
+  /// (x, y) in [−1, 1]², y up; `offset` of the samples, in Δ.
+  vec4 trace(const SharedFunctions::RayFrame& frame, bool perspective, real x, real y, real offset) {
     const SharedFunctions::PixelRay ray = this->ray_from_pixel(frame, perspective, x, y);
     vec2 interval = this->hit_box(ray, prepared.object_low, prepared.object_high);
     const vec4 behind = planes.empty() ? vec4(0) : stop_at_plane(ray, interval);
@@ -325,10 +369,11 @@ struct Tracer : SharedFunctions {
     std::for_each(prepared.object_clip.begin(), prepared.object_clip.end(), cut);
     if (!is_warped(prepared))
       std::for_each(prepared.data_clip.begin(), prepared.data_clip.end(), cut);
-    const bool mip = prepared.scene.render.mode == Mode::mip;
+    const Mode mode = prepared.scene.render.mode;
+    const bool mip = classifies_last(mode);
     const real nothing = -std::numeric_limits<real>::infinity();
     vec4 gathered(0);
-    if (mip)
+    if (mip && mode != Mode::average)
       gathered = volumes.empty() ? vec4(nothing, 0, 0, 0) : vec4(nothing);
     if (interval.x > interval.y)
       return behind;
@@ -336,12 +381,14 @@ struct Tracer : SharedFunctions {
                                     : -prepared.view.forward;
     const real delta = prepared.spacing;
     half_step = 0.5 * delta * ray.direction;
-    const auto first = static_cast<std::int64_t>(this->first_sample(interval.x, delta));
-    const auto last = static_cast<std::int64_t>(this->last_sample(interval.y, delta));
+    const auto first = static_cast<std::int64_t>(this->first_sample(interval.x - offset * delta, delta));
+    const auto last = static_cast<std::int64_t>(this->last_sample(interval.y - offset * delta, delta));
+    if (mode == Mode::iso)
+      return first_surface(ray, first, last, offset, to_eye);
     const real stop = prepared.scene.render.mode == Mode::dvr ? prepared.scene.render.early_termination : 2;
     for (std::int64_t k = first; k <= last; ++k) {
-      gathered =
-          gather(gathered, ray.origin + ((static_cast<real>(k) + 0.5) * delta) * ray.direction, to_eye);
+      gathered = gather(gathered,
+                        ray.origin + ((static_cast<real>(k) + 0.5 + offset) * delta) * ray.direction, to_eye);
       if (stop < 1 && gathered.w >= stop)
         break;
     }
@@ -351,7 +398,9 @@ struct Tracer : SharedFunctions {
       return classified_maxima(gathered);
     if (gathered.w == 0)
       return vec4(0);
-    const vec4 color = with_effects(evaluate(prepared.transfer, gathered.x), vec2(gathered.y, gathered.z));
+    const real shown = mode == Mode::average ? gathered.x / gathered.w : sign() * gathered.x;
+    const vec4 color = with_effects(evaluate(prepared.transfer, shown),
+                                    mode == Mode::average ? vec2(1, 0) : vec2(gathered.y, gathered.z));
     return this->associated(vec3(color), color.w);
   }
 };
@@ -368,12 +417,14 @@ public:
     const vec3 t = tracer_.data_point(p);
     return tracer_.shows_data(t) ? corrected(tracer_.sample_color(t, p, to_eye)) : vec4(0);
   }
-  real value(vec3 first) override {
+  real extreme(vec3 first) override {
     const vec3 t = tracer_.data_point(vec3(own_from_first_ * vec4(first, 1)));
-    return tracer_.shows_data(t) ? tracer_.displayed_value(t) : -std::numeric_limits<real>::infinity();
+    return tracer_.shows_data(t) ? tracer_.sign() * tracer_.displayed_value(t)
+                                 : -std::numeric_limits<real>::infinity();
   }
-  vec4 classified(real value) const override {
-    return std::isfinite(value) ? corrected(evaluate(tracer_.prepared.transfer, value)) : vec4(0);
+  vec4 classified(real extreme) const override {
+    return std::isfinite(extreme) ? corrected(evaluate(tracer_.prepared.transfer, tracer_.sign() * extreme))
+                                  : vec4(0);
   }
 
 private:
@@ -397,7 +448,7 @@ SharedFunctions::RayFrame shared_frame(const PreparedScene& prepared) {
 template <class T>
 std::optional<SmoothCopy> smooth_voxels(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
-  if (render.shading == Shading::none || render.gradient != Gradient::prefiltered)
+  if (!uses_gradients(prepared.scene) || render.gradient != Gradient::prefiltered)
     return std::nullopt;
   const Tracer<T> voxels(prepared, nullptr, nullptr);
   const auto dims = reduced_dims(prepared.volume.dims, reduction_of(render.gradient_resolution));
@@ -430,6 +481,16 @@ VolumeSamplers make_samplers(const PreparedScene& prepared,
   return samplers;
 }
 
+/// Of the samples of a pixel, in Δ; y from the top.
+real pixel_shift(const PreparedScene& prepared, int x, int y) {
+  const RenderSettings& render = prepared.scene.render;
+  if (render.jitter == 0)
+    return 0;
+  return render.jitter * SharedFunctions().pixel_offset(static_cast<uint>(x),
+                                                        static_cast<uint>(prepared.view.height - 1 - y),
+                                                        static_cast<uint>(render.jitter_seed));
+}
+
 template <class T>
 void trace_all(const PreparedScene& prepared, Image& image, const Progress& progress) {
   const View& view = prepared.view;
@@ -446,8 +507,9 @@ void trace_all(const PreparedScene& prepared, Image& image, const Progress& prog
     Tracer<T> tracer(prepared, colors, smooth ? &*smooth : nullptr);
     tracer.volumes = make_samplers(prepared, copies);
     for (int x = 0; x < view.width; ++x) {
-      const vec4 color = tracer.trace(frame, view.projection == Projection::perspective,
-                                      2 * (x + 0.5) / view.width - 1, 1 - 2 * (y + 0.5) / view.height);
+      const vec4 color =
+          tracer.trace(frame, view.projection == Projection::perspective, 2 * (x + 0.5) / view.width - 1,
+                       1 - 2 * (y + 0.5) / view.height, pixel_shift(prepared, x, y));
       for (int c = 0; c < 4; ++c)
         channel(image, x, y, c) = static_cast<float>(color[c]);
     }

@@ -1,6 +1,7 @@
 #include "render/scene_overlay.h"
 
 #include "image/overlay.h"
+#include "render/annotations.h"
 #include "render/overlay_parts.h"
 #include "render/stack_geometry.h"
 #include "render/warp_overlay.h"
@@ -236,6 +237,7 @@ void draw_overlays(Image& image, const PreparedScene& prepared) {
   }
   if (overlay.landmarks > 0)
     draw_landmarks(image, prepared);
+  draw_annotations(image, prepared);
   if (bar)
     image = with_magnification_bar(image, *bar);
 }

@@ -10,7 +10,8 @@ namespace slicelens {
 /// Draws what the scene's section `overlay` asks for over the finished picture. Outline, wireframe, lattice
 /// and magnification of LaMar's lenses are those of the plane through each lens' centre, across the view.
 /// Other warps: see render/warp_overlay.h; with both, lattice and magnification are the lenses'. With a
-/// magnification the picture grows by a colour bar. Does nothing by default.
+/// magnification the picture grows by a colour bar. Legend, scale bar and labels lie over all else
+/// (render/annotations.h). Does nothing by default.
 void draw_overlays(Image& image, const PreparedScene& prepared);
 
 /// The slices' polygons seen by a camera that went `overlay.stack` degrees aside: planes that meet no lens

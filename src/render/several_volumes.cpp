@@ -25,7 +25,8 @@ const std::vector<std::string>& own_names() {
       "forward_gradient", "central_gradient", "shown_gradient",
       // gpu/light.glsl
       "world_from_gradient", "to_light", "ambient", "diffuse", "specular", "power", "cool", "warm",
-      "two_sided", "shade",
+      "two_sided", "shade", "opacity_factor", "plain_color", "transfer_2d_texture", "transfer_2d_place",
+      "classify_2d", "full_gradient",
       // gpu/one_volume.glsl
       "own_from_first", "length_ratio", "unit_from_value", "own_sample", "own_unit", "own_color"};
   return names;
@@ -36,13 +37,16 @@ std::string suffix(std::size_t index) { return "_" + std::to_string(index); }
 std::string chain_name(std::size_t index) { return "generated/warps" + suffix(index) + ".glsl"; }
 
 /// One volume's declarations under names of its own.
-std::string one_volume(std::size_t index, std::size_t warps, GradientSpace gradients) {
+std::string one_volume(std::size_t index, std::size_t warps, const PreparedScene& volume) {
   std::vector<std::string> names = own_names();
   for (std::size_t i = 0; i < warps; ++i)
     names.push_back("warp_" + std::to_string(i));
   std::string text = "#undef GRADIENT_IN_OBJECT_SPACE\n";
-  if (gradients == GradientSpace::object)
+  if (volume.gradient_space == GradientSpace::object)
     text += "#define GRADIENT_IN_OBJECT_SPACE\n";
+  text += "#undef TRANSFER_2D\n";
+  if (!volume.scene.transfer.shapes.empty())
+    text += "#define TRANSFER_2D\n";
   for (const std::string& name : names)
     text += "#define " + name + " " + name + suffix(index) + "\n";
   text += "#include \"" + chain_name(index) + "\"\n#include \"gpu/one_volume.glsl\"\n";
@@ -97,7 +101,7 @@ std::vector<EmbeddedFile> generated_files(const PreparedScene& prepared) {
     const std::vector<WarpMap> maps = drawn_maps(volume_at(prepared, i));
     all.insert(all.end(), maps.begin(), maps.end());
     files.push_back({chain_name(i), warp_chain_functions(maps)});
-    text += one_volume(i, maps.size(), volume_at(prepared, i).gradient_space);
+    text += one_volume(i, maps.size(), volume_at(prepared, i));
   }
   files.push_back({"generated/warp_types.glsl", warp_includes(all)});
   files.push_back({"generated/volumes.glsl", text + combining_functions(volume_count(prepared))});
@@ -117,8 +121,11 @@ double length_ratio(const PreparedScene& prepared, std::size_t index) {
   return prepared.unit_distance / volume_at(prepared, index).unit_distance;
 }
 
-glm::dvec2 several_unit_from_value(const Volume& volume) {
+glm::dvec2 several_unit_from_value(const PreparedScene& prepared) {
+  const Volume& volume = prepared.volume;
   const double scale = 254.0 / 255 / (volume.max > volume.min ? volume.max - volume.min : 1);
+  if (prepared.scene.render.mode == Mode::minip)
+    return {-scale, 1 + scale * volume.min};
   return {scale, 1.0 / 255 - scale * volume.min};
 }
 
@@ -135,13 +142,14 @@ void set_volumes(const gl::Functions& gl, const gl::Program& program, const Prep
     units.volume = counter.take();
     units.transfer = counter.take();
     units.gradient = textures.gradients.texture ? counter.take() : 0;
+    units.transfer_2d = textures.transfer_2d ? counter.take() : 0;
     units.grids.clear();
     for (std::size_t k = 0; k < textures.grids.size(); ++k)
       units.grids.push_back(counter.take());
     set_volume_uniforms(gl, uniforms, volume, textures, units);
     set_uniform(gl, uniforms, "own_from_first", glm::mat4(own_from_first(prepared, i)));
     set_uniform(gl, uniforms, "length_ratio", static_cast<float>(length_ratio(prepared, i)));
-    set_uniform(gl, uniforms, "unit_from_value", glm::vec2(several_unit_from_value(volume.volume)));
+    set_uniform(gl, uniforms, "unit_from_value", glm::vec2(several_unit_from_value(volume)));
   }
 }
 

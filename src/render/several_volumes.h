@@ -29,6 +29,7 @@ void set_volumes(const gl::Functions& gl, const gl::Program& program, const Prep
 double length_ratio(const PreparedScene& prepared, std::size_t index);
 
 /// MIP: unit = x · value + y, from 1/255 at the smallest value to 1 at the largest; 0 stands for no value.
-glm::dvec2 several_unit_from_value(const Volume& volume);
+/// For `minip` the other way round.
+glm::dvec2 several_unit_from_value(const PreparedScene& prepared);
 
 } // namespace slicelens

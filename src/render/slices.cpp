@@ -17,19 +17,24 @@ namespace slicelens {
 
 namespace {
 
-/// Maps of the value to [0,1] and back, for targets that hold no more.
-glm::vec2 unit_from_value(const Volume& volume) {
+/// Maps of the value to [0,1] and back, for targets that hold no more. The smallest value is the largest
+/// unit where the mode looks for it.
+glm::dvec2 unit_from_value(const PreparedScene& prepared) {
+  const Volume& volume = prepared.volume;
   const double range = volume.max > volume.min ? volume.max - volume.min : 1;
+  if (prepared.scene.render.mode == Mode::minip)
+    return {-1 / range, (volume.min + range) / range};
   return {1 / range, -volume.min / range};
 }
-glm::vec2 value_from_unit(const Volume& volume) {
-  return {volume.max > volume.min ? volume.max - volume.min : 1, volume.min};
+glm::dvec2 value_from_unit(const PreparedScene& prepared) {
+  const glm::dvec2 forward = unit_from_value(prepared);
+  return {1 / forward.x, -forward.y / forward.x};
 }
 
 /// Under MIP the winning sample keeps its own highlight and attenuation, which the largest of each channel
 /// would mix up: a depth test picks the sample instead.
 bool picks_winner(const PreparedScene& prepared) {
-  return prepared.scene.render.mode == Mode::mip &&
+  return classifies_last(prepared.scene.render.mode) &&
          (has_highlight(prepared.effects) || has_attenuation(prepared.effects));
 }
 
@@ -45,8 +50,9 @@ void set_depth_test(const gl::Functions& gl, const RenderSettings& render) {
 
 void set_blending(const gl::Functions& gl, const RenderSettings& render) {
   gl.Enable(GL_BLEND);
-  gl.BlendEquation(render.mode == Mode::mip ? GL_MAX : GL_FUNC_ADD);
-  if (render.mode == Mode::xray) {
+  const bool extreme = render.mode == Mode::mip || render.mode == Mode::minip;
+  gl.BlendEquation(extreme ? GL_MAX : GL_FUNC_ADD);
+  if (render.mode == Mode::xray || render.mode == Mode::average) {
     gl.BlendFunc(GL_ONE, GL_ONE);
   } else if (render.order == Order::back_to_front) {
     gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -68,7 +74,7 @@ SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepa
     planes_.emplace(gl, prepared);
   vertex_array_ = gl::make_vertex_array(gl);
   no_vertices_ = gl::make_vertex_array(gl);
-  if (prepared.scene.render.mode == Mode::mip) {
+  if (classifies_last(prepared.scene.render.mode)) {
     std::vector<gl::ShaderSource> second = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});
     const auto classify =
         shader_stage(GL_FRAGMENT_SHADER, "classify_maximum.frag", common_macros(prepared), generated);
@@ -127,8 +133,9 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   const gl::StateGuard guard(gl);
   const RenderSettings& render = prepared.scene.render;
   const View& view = prepared.view;
-  if (render.mode == Mode::mip && (!maxima_ || maxima_->width != target.width ||
-                                   maxima_->height != target.height || maxima_->format != target.format)) {
+  if (classifies_last(render.mode) &&
+      (!maxima_ || maxima_->width != target.width || maxima_->height != target.height ||
+       maxima_->format != target.format)) {
     maxima_ = gl::make_target(gl, target.width, target.height, target.format);
     if (picks_winner(prepared))
       gl::attach_depth(gl, *maxima_);
@@ -137,7 +144,8 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   gl.Disable(GL_DEPTH_TEST);
   gl.Disable(GL_CULL_FACE);
   gl.Disable(GL_DITHER);
-  const bool below_all = maxima_ && target.format != GL_RGBA8 && prepared.others.empty();
+  const bool below_all =
+      maxima_ && target.format != GL_RGBA8 && prepared.others.empty() && render.mode != Mode::average;
   gl.ClearColor(below_all ? -1.0F : 0.0F, 0, 0, 0);
   gl.Clear(GL_COLOR_BUFFER_BIT);
 
@@ -146,7 +154,7 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   gl.UseProgram(program_.name());
   set_common_uniforms(gl, program_, prepared, scene);
   set_uniform(gl, program_, "clip_from_texture", glm::mat4(clip_from_texture(prepared)));
-  set_uniform(gl, program_, "unit_from_value", unit_from_value(prepared.volume));
+  set_uniform(gl, program_, "unit_from_value", glm::vec2(unit_from_value(prepared)));
   set_uniform(gl, program_, "eye", glm::vec3(view.eye));
   set_uniform(gl, program_, "world_from_texture", glm::mat4(prepared.box.world_from_texture));
   set_uniform(gl, program_, "slope_from_pixel",
@@ -203,7 +211,7 @@ void SliceRenderer::classify_maxima(const PreparedScene& prepared, const GpuScen
   gl.ActiveTexture(GL_TEXTURE2);
   gl.BindTexture(GL_TEXTURE_2D, maxima_->color.name());
   set_uniform(gl, classify_program_, "maxima", 2);
-  set_uniform(gl, classify_program_, "value_from_unit", value_from_unit(prepared.volume));
+  set_uniform(gl, classify_program_, "value_from_unit", glm::vec2(value_from_unit(prepared)));
   gl.BindVertexArray(no_vertices_.name());
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }

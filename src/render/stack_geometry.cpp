@@ -112,13 +112,16 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
       render.order == Order::front_to_back ? SliceOrder::front_to_back : SliceOrder::back_to_front;
   if (render.proxy == Proxy::shells)
     return shell_geometry(prepared, request);
-  if (!lenses_only || !warped)
+  // Samples that jitter moves off their slice may come back into the volume: fragments test where they are.
+  const bool moved = render.jitter > 0;
+  if (!moved && (!lenses_only || !warped))
     request.clip = prepared.object_clip;
-  if (!warped)
+  if (!moved && !warped)
     request.clip.insert(request.clip.end(), prepared.data_clip.begin(), prepared.data_clip.end());
-  if (!lenses_only) {
-    request.low = prepared.object_low;
-    request.high = prepared.object_high;
+  if (!lenses_only || moved) {
+    const glm::dvec3 margin = (moved ? 2 * prepared.spacing : 0) / extent(prepared.box);
+    request.low = prepared.object_low - margin;
+    request.high = prepared.object_high + margin;
   }
   const SliceStack stack = make_slice_stack(request);
   if (is_subdivided(prepared))

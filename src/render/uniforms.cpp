@@ -6,6 +6,7 @@
 #include "render/tiled_draw.h"
 #include "scene/names.h"
 
+#include <algorithm>
 #include <cctype>
 
 namespace slicelens {
@@ -18,13 +19,25 @@ std::string upper_case(std::string text) {
   return text;
 }
 
+/// Whether one of several volumes is classified by its gradient.
+bool any_shapes(const PreparedScene& prepared) {
+  return std::any_of(prepared.others.begin(), prepared.others.end(),
+                     [](const PreparedScene& other) { return uses_gradients(other.scene); });
+}
+
 void add_shading_macros(const PreparedScene& prepared, std::vector<std::string>& macros) {
   const RenderSettings& render = prepared.scene.render;
-  if (render.shading == Shading::none)
+  if (!uses_gradients(prepared.scene) && !any_shapes(prepared))
     return;
-  macros.emplace_back("SHADED");
+  if (!prepared.scene.transfer.shapes.empty())
+    macros.emplace_back("TRANSFER_2D");
+  if (render.modulate_by_gradient)
+    macros.emplace_back("MODULATED");
+  if (render.shading != Shading::none) {
+    macros.emplace_back("SHADED");
+    macros.push_back("SHADING_" + upper_case(word(render.shading)));
+  }
   macros.emplace_back("GRADIENTS");
-  macros.push_back("SHADING_" + upper_case(word(render.shading)));
   macros.push_back("GRADIENT_" + upper_case(word(render.gradient)));
   if (prepared.gradient_space == GradientSpace::object)
     macros.emplace_back("GRADIENT_IN_OBJECT_SPACE");
@@ -56,6 +69,15 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
   case Mode::mip:
     macros.emplace_back("MODE_MIP");
     break;
+  case Mode::minip:
+    macros.insert(macros.end(), {"MODE_MIP", "MODE_MINIP"});
+    break;
+  case Mode::average:
+    macros.insert(macros.end(), {"MODE_MIP", "MODE_AVERAGE"});
+    break;
+  case Mode::iso:
+    macros.emplace_back("MODE_ISO");
+    break;
   case Mode::xray:
     macros.emplace_back("MODE_XRAY");
     break;
@@ -86,6 +108,8 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("ATTENUATION");
   if ((is_warped(prepared) || !prepared.others.empty()) && !prepared.data_clip.empty())
     macros.emplace_back("DATA_PLANES");
+  if (render.jitter > 0)
+    macros.emplace_back("JITTER");
   for (std::string& macro : volume_macros(prepared))
     macros.push_back(std::move(macro));
   macros.push_back("MAX_CLIP_PLANES " +
@@ -141,6 +165,8 @@ void set_shading_uniforms(const gl::Functions& gl, const gl::Uniforms& program, 
   const glm::dmat3 world_from_texture(prepared.box.world_from_texture);
   set_uniform(gl, program, "world_from_gradient",
               glm::mat3(glm::transpose(glm::inverse(world_from_texture))));
+  set_uniform(gl, program, "full_gradient",
+              static_cast<float>(prepared.scene.render.modulate_by_gradient.value_or(1)));
   const LightSettings& light = prepared.scene.light;
   set_uniform(gl, program, "to_light", glm::vec3(light_direction(prepared, -prepared.view.forward)));
   set_uniform(gl, program, "ambient", static_cast<float>(light.ambient));
@@ -162,10 +188,46 @@ void set_volume_uniforms(const gl::Functions& gl, const gl::Uniforms& program, c
   gl.BindTexture(GL_TEXTURE_1D, scene.transfer.name());
   set_uniform(gl, program, "volume_texture", static_cast<int>(units.volume));
   set_uniform(gl, program, "transfer_texture", static_cast<int>(units.transfer));
+  if (scene.transfer_2d) {
+    gl.ActiveTexture(GL_TEXTURE0 + units.transfer_2d);
+    gl.BindTexture(GL_TEXTURE_2D, scene.transfer_2d.name());
+    set_uniform(gl, program, "transfer_2d_texture", static_cast<int>(units.transfer_2d));
+    set_uniform(gl, program, "transfer_2d_place", scene.transfer_2d_place);
+  }
   set_uniform(gl, program, "value_from_texel", scene.value_from_texel);
   set_uniform(gl, program, "transfer_from_value", scene.transfer_from_value);
   set_uniform(gl, program, "transfer_from_texel", scene.transfer_from_texel);
   set_shading_uniforms(gl, program, prepared, scene.gradients, units.gradient);
+}
+
+/// What shaders/gpu/region.glsl and step.glsl declare, and the settings of iso and jitter.
+void set_sample_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared) {
+  const RenderSettings& render = prepared.scene.render;
+  set_uniform(gl, program, "object_low", glm::vec3(prepared.object_low));
+  set_uniform(gl, program, "object_high", glm::vec3(prepared.object_high));
+  // Under a warp a straight ray leaves and enters the data's half-spaces more than once: gpu/warp.glsl tests
+  // each sample.
+  std::vector<glm::vec4> planes = plane_vectors(prepared.object_clip);
+  if (!is_warped(prepared)) {
+    for (const glm::vec4& plane : plane_vectors(prepared.data_clip))
+      planes.push_back(plane);
+  }
+  set_uniform(gl, program, "clip_count", static_cast<int>(planes.size()));
+  if (!planes.empty())
+    set_uniform(gl, program, "clip_planes", std::span<const glm::vec4>(planes));
+  set_uniform(gl, program, "isovalue", static_cast<float>(isovalue_of(prepared)));
+  set_uniform(gl, program, "jitter", static_cast<float>(render.jitter));
+  set_uniform(gl, program, "jitter_seed", static_cast<int>(render.jitter_seed));
+  const View& view = prepared.view;
+  const glm::dmat4& world_from_texture = prepared.box.world_from_texture;
+  const glm::dmat4 texture_from_world = slicelens::texture_from_world(prepared.box);
+  set_uniform(gl, program, "sample_step",
+              glm::vec3(-prepared.spacing * (glm::dmat3(texture_from_world) * view.forward)));
+  set_uniform(gl, program, "eye_place", glm::vec3(texture_from_world * glm::dvec4(view.eye, 1)));
+  const glm::dvec3 slope = glm::transpose(glm::dmat3(world_from_texture)) * view.forward;
+  set_uniform(
+      gl, program, "step_of_depth",
+      glm::vec4(glm::dvec4(slope, depth(view, glm::dvec3(world_from_texture[3]))) / prepared.spacing));
 }
 
 void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared,
@@ -174,6 +236,7 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
     set_volume_uniforms(gl, program, prepared, scene);
   else
     set_volumes(gl, program, prepared, scene);
+  set_sample_uniforms(gl, program, prepared);
   if (has_highlight(prepared.effects) || has_attenuation(prepared.effects))
     set_struct(gl, program, "effects", prepared.effects);
   if (scene.axis[0])

@@ -17,7 +17,8 @@ std::vector<std::string> common_macros(const PreparedScene& prepared);
 struct TextureUnits {
   GLenum volume = 0;
   GLenum transfer = 1;
-  GLenum gradient = 10; ///< the second texture that some gradients need
+  GLenum gradient = 10;    ///< the second texture that some gradients need
+  GLenum transfer_2d = 11; ///< of value and gradient
   std::vector<GLenum> grids = grid_units;
 };
 

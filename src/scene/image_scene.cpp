@@ -197,7 +197,7 @@ std::string image_scene_to_json(const ImageScene& scene, int indent) {
   } else {
     narrow_lens(warp);
   }
-  return writer.object.dump(indent, ' ', true);
+  return writer.object.dump(indent, ' ', true, Json::error_handler_t::replace);
 }
 
 bool is_image_scene(const std::string& text) {

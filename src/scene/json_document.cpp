@@ -1,6 +1,7 @@
 #include "scene/json_document.h"
 
 #include "core/errors.h"
+#include "core/files.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -31,8 +32,8 @@ struct Alternatives {
 const std::vector<Alternatives>& alternatives() {
   static const std::vector<Alternatives> groups = {
       {"volume", {{"file"}, {"phantom"}}},
-      {"transfer", {{"preset"}, {"points"}}},
-      {"camera", {{"position"}, {"azimuth", "elevation", "roll"}}},
+      {"transfer", {{"preset"}, {"points"}, {"shapes"}, {"file", "map", "range"}}},
+      {"camera", {{"position"}, {"azimuth", "elevation", "roll"}, {"file"}}},
       {"image", {{"file"}, {"checkerboard"}, {"testcard"}}},
   };
   return groups;
@@ -44,6 +45,10 @@ void remove_alternatives(Json& section, const std::string& section_name, const s
   // A phantom's size goes with it: files know theirs, and a raw file's is set after its name.
   if (section_name == "volume" && key == "file" && section.contains("phantom"))
     section.erase("size");
+  if (section_name == "camera" && key == "file") { // which says all of these itself
+    for (const char* name : {"focal_point", "view_up", "view_angle", "parallel_scale", "projection"})
+      section.erase(name);
+  }
   for (const Alternatives& group : alternatives()) {
     if (section_name != group.section)
       continue;
@@ -120,6 +125,16 @@ Json parse_text(const std::string& text, const std::string& source) {
     }
     throw UsageError(source + ": not valid JSON at line " + std::to_string(line) + ", column " +
                      std::to_string(column) + "; look for a missing comma, quote or bracket");
+  } catch (const Json::exception&) { // 1e999
+    throw UsageError(source + ": holds a number beyond the range of doubles");
+  }
+}
+
+Json parse_file(const std::filesystem::path& path, std::size_t limit) {
+  try {
+    return parse_text(read_text(path, limit), path.string());
+  } catch (const UsageError& error) {
+    throw FileError(path.string(), std::string(error.what()).substr(path.string().size() + 2));
   }
 }
 

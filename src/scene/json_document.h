@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ Json changed_document(const std::string& text, const std::string& source,
 
 /// The value that `text` holds, an object or not. Throws UsageError as above.
 Json parse_text(const std::string& text, const std::string& source);
+
+/// The value that a file of at most `limit` bytes holds. Throws FileError: a damaged file is no wrong scene.
+Json parse_file(const std::filesystem::path& path, std::size_t limit = std::size_t{64} << 20);
 
 /// "warp[0].zoom" and "warp.0.zoom" are {"warp", "0", "zoom"}.
 std::vector<std::string> split_key(const std::string& key);

@@ -18,19 +18,43 @@ void volume_keys(Visitor& visit, Settings& s) {
   visit.key("type", s.type, "scalar type of a headerless raw file: uint8 … float64");
   visit.key("spacing", s.spacing, "voxel spacing [x,y,z] of a headerless raw file", Range::positive);
   visit.endian("endian", s.big_endian, "byte order of a headerless raw file: little or big");
-  visit.key("component", s.component, "which component of a multi-component volume is shown, from 0");
+  visit.key("component", s.component,
+            "which component of a multi-component volume is shown, from 0 (none: RGB and RGBA of uint8 or "
+            "uint16 as colours)");
   visit.key("frame", s.frame, "which frame of a 4D file is shown, from 0");
   visit.key("series", s.series, "which DICOM series of a folder (UID, or a part that only one has)");
 }
 
 template <class Visitor, class Settings>
 void transfer_keys(Visitor& visit, Settings& s) {
-  visit.key("preset", s.preset, "named transfer function (slicelens list presets); excludes points");
+  visit.key("preset", s.preset, "named transfer function (slicelens list presets); excludes points and file");
   visit.key("points", s.points,
-            "[[value, r, g, b, opacity], …], value in data units, ascending; excludes preset");
+            "[[value, r, g, b, opacity], …], value in data units, ascending; excludes preset and file");
+  visit.list("shapes", s.shapes,
+             "a function of value and gradient instead: shapes whose opacities add up; excludes the others",
+             [](auto& v, auto& x) {
+               v.key("value", x.value,
+                     "[a, b, c, d] in data units: nothing below a, rising to b, whole to c, falling to d");
+               v.key("gradient", x.gradient, "the same of the gradient, data units per world unit");
+               v.key("color", x.color, "[r, g, b]", Range::unit);
+               v.key("opacity", x.opacity, "where the shape is whole", Range::unit);
+             });
+  visit.key("file", s.file,
+            "transfer function of ParaView (.json, .xml), 3D Slicer (.vp, .vp.json) or ImageVis3D (.1dt); "
+            "excludes preset and points");
+  visit.key("map", s.map, "name of the colour map in a ParaView file that holds several");
+  visit.key("range", s.range,
+            "[first, last]: data values onto which the points of file are stretched (none: as the file says; "
+            ".1dt: the data's range)");
   visit.key("unit_distance", s.unit_distance,
             "reference length of the opacities in world units (none: the smallest voxel spacing)",
             Range::positive);
+  visit.key(
+      "window", s.window,
+      "width of the range of values, in data units, onto which the function is stretched from its first "
+      "point to its last (none: its own)",
+      Range::positive);
+  visit.key("level", s.level, "the middle of that range, in data units (none: its own)");
 }
 
 template <class Visitor, class Settings>
@@ -55,6 +79,7 @@ void layer_keys(Visitor& visit, Settings& s) {
 
 template <class Visitor, class Settings>
 void camera_keys(Visitor& visit, Settings& s) {
+  visit.key("file", s.file, "camera of ParaView (.pvcc); excludes all other keys but zoom");
   visit.key("azimuth", s.azimuth, "degrees about view up, as VTK's Azimuth");
   visit.key("elevation", s.elevation, "degrees about the horizontal axis, as VTK's Elevation");
   visit.key("roll", s.roll, "degrees about the viewing direction, as VTK's Roll");
@@ -76,8 +101,22 @@ void render_keys(Visitor& visit, Settings& s) {
             "where the map is evaluated: slices (no warp), tessellated (per vertex), axis (in three 1D "
             "textures), fragment, grid (in a 3D texture), "
             "fixed-function (per vertex, without shaders), rays (GPU), or reference (CPU, double)");
-  visit.key("mode", s.mode,
-            "dvr (emission and absorption), mip (maximum) or xray (line integral of the opacity)");
+  visit.key(
+      "mode", s.mode,
+      "dvr (emission and absorption), mip (maximum), minip (minimum), average (mean of the values), xray "
+      "(line integral of the opacity) or iso (the first surface of render.isovalue)");
+  visit.key("isovalue", s.isovalue,
+            "value of the surface of mode iso, data units (none: middle of the data's range)");
+  visit.key("modulate_by_gradient", s.modulate_by_gradient,
+            "gradient in data units per world unit below which opacities are lowered in proportion, so that "
+            "only boundaries stay (none: opacities as they are)",
+            Range::positive);
+  visit.key(
+      "jitter", s.jitter,
+      "shifts all samples of a pixel along its ray by a random part of this many slice distances, which "
+      "turns rings into noise; 0: off",
+      Range::unit);
+  visit.key("jitter_seed", s.jitter_seed, "of these random parts");
   visit.key("xray_scale", s.xray_scale,
             "grey shown for a line integral of one (none: one over the box diagonal)", Range::positive);
   visit.key("size", s.size, "picture [width, height] in pixels");
@@ -212,6 +251,14 @@ void scene_overlay_keys(Visitor& visit, Settings& s) {
   visit.key("landmarks", s.landmarks,
             "radius in pixels of circles around landmarks: red sources, blue targets; 0: none",
             Range::non_negative);
+  visit.key("legend", s.legend, "the transfer function's colours and opacities beside their values");
+  visit.key("scale_bar", s.scale_bar,
+            "a round length; under perspective on the plane through the focal point, and it says so");
+  visit.key(
+      "labels", s.labels,
+      "letters at the edges: where left, posterior, superior (L, P, S: +x, +y, +z) and right, anterior, "
+      "inferior (R, A, I) lie");
+  visit.key("unit", s.unit, "behind the scale bar's length (none: mm for DICOM and NIfTI, else nothing)");
 }
 
 template <class Visitor, class Settings>
@@ -241,6 +288,11 @@ void scene_keys(Visitor& visit, Settings& s) {
   visit.list("planes", s.planes, "cutting planes that show the displayed volume, opaque",
              [](auto& v, auto& x) { plane_keys(v, x); });
   visit.list("clip", s.clip, "clipping planes", [](auto& v, auto& x) { clip_keys(v, x); });
+  visit.option("crop", s.crop, "a box of the volume that is kept", [](auto& v, auto& x) {
+    v.key("low", x.low, "its lowest corner, texture coordinates");
+    v.key("high", x.high, "its highest corner");
+    v.key("space", x.space, "texture (the data) or object (the displayed volume)");
+  });
   visit.volumes(
       "volumes", s,
       "instead of volume, transfer and warp: a list of up to 4 volumes, each with the keys of volume "

@@ -17,7 +17,7 @@
 namespace slicelens::keys_json {
 
 [[noreturn]] inline void refuse(const std::string& path, const Json& value, const std::string& wanted) {
-  std::string text = value.dump();
+  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace); // a name need not be UTF-8
   if (text.size() > 60)
     text = text.substr(0, 57) + "…";
   throw UsageError(path + ": " + text + " is not valid; " + wanted);

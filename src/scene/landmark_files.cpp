@@ -101,16 +101,8 @@ glm::dvec3 point_of(const fs::path& path, const Json& json, const std::string& w
   return point;
 }
 
-Json json_of(const fs::path& path) {
-  try {
-    return keys_json::parse_text(read_text(path), path.string());
-  } catch (const UsageError& error) { // a file that is damaged, not a wrong scene
-    throw FileError(path.string(), std::string(error.what()).substr(path.string().size() + 2));
-  }
-}
-
 Json list_of(const fs::path& path, const char* of) {
-  Json json = json_of(path);
+  Json json = keys_json::parse_file(path);
   if (!json.is_array())
     throw FileError(path.string(), std::string("holds no list; give ") + of);
   return json;
@@ -147,7 +139,7 @@ std::vector<glm::dvec3> read_fcsv(const fs::path& path) {
 }
 
 std::vector<glm::dvec3> read_markups(const fs::path& path) {
-  const Json json = json_of(path);
+  const Json json = keys_json::parse_file(path);
   const auto lists = json.is_object() ? json.find("markups") : json.end();
   if (!json.is_object() || lists == json.end() || !lists->is_array() || lists->empty() ||
       !(*lists)[0].is_object() || !(*lists)[0].contains("controlPoints") ||

@@ -1,9 +1,13 @@
 #include "scene/load.h"
 
 #include "core/errors.h"
+#include "core/text.h"
+#include "scene/camera_files.h"
+#include "scene/transfer_files.h"
 #include "volume/phantom.h"
 
 #include <system_error>
+#include <utility>
 
 namespace slicelens {
 
@@ -49,22 +53,80 @@ Volume load_volume(const VolumeSettings& settings, const std::vector<fs::path>& 
     return make_phantom(name, settings.size.value_or(phantom_info(name).size), progress);
   }
   Volume volume = read_volume(source_of(settings, folders), progress);
+  if (holds_colors(volume))
+    return with_luminance(volume);
   if (volume.components > 1) {
-    throw UsageError(*settings.file + ": has " + std::to_string(volume.components) +
-                     " components a voxel; choose one with volume.component (0 to " +
-                     std::to_string(volume.components - 1) + ")");
+    throw UsageError(*settings.file + ": has " + std::to_string(volume.components) + " components a voxel" +
+                     (volume.components > 2 ? " that are no colours of 8 or 16 bits" : "") +
+                     "; choose one with volume.component (0 to " + std::to_string(volume.components - 1) +
+                     ")");
   }
   if (volume.non_finite > 0) {
     report_warning(progress, *settings.file + ": " + std::to_string(volume.non_finite) +
-                                 " voxels are NaN or infinite and are drawn as the smallest value");
+                                 " voxels are NaN or infinite and are drawn as empty");
   }
   return volume;
+}
+
+glm::dvec2 table_range(const Volume& volume, std::size_t rows) {
+  if (volume.type == ScalarType::u8 && rows == 256)
+    return {0, 255};
+  return volume.min < volume.max ? glm::dvec2(volume.min, volume.max)
+                                 : glm::dvec2(volume.min - 1, volume.min);
+}
+
+void load_transfer_file(TransferSettings& settings, const Volume& volume,
+                        const std::vector<fs::path>& folders, const Progress& progress) {
+  if (!settings.file)
+    return;
+  const fs::path path = resolve_file(*settings.file, folders, "transfer.file");
+  const TransferFile file = read_transfer_file(path, settings.map.value_or(""));
+  auto range = settings.range;
+  if (file.rows && !range)
+    range = table_range(volume, file.color.points.size());
+  ReadTransfer read = transfer_of(file, path, range);
+  const auto& points = read.transfer.points;
+  std::string note = read.note;
+  if (points.back().value < volume.min || points.front().value > volume.max) {
+    note += (note.empty() ? "" : "; ") + std::string("its points lie from ") +
+            number_text(points.front().value) + " to " + number_text(points.back().value) +
+            ", the data from " + number_text(volume.min) + " to " + number_text(volume.max) +
+            ": give transfer.range";
+  }
+  if (!note.empty())
+    report_warning(progress, *settings.file + ": " + note);
+  if (!settings.unit_distance)
+    settings.unit_distance = read.transfer.unit_distance;
+  settings.points.emplace();
+  for (const TransferPoint& p : points)
+    settings.points->push_back({p.value, p.r, p.g, p.b, p.opacity});
+  settings.file.reset();
+  settings.map.reset();
+  settings.range.reset();
+}
+
+void load_camera_file(Scene& scene, const std::vector<fs::path>& folders, const Progress& progress) {
+  if (!scene.camera.file)
+    return;
+  const std::string name = *scene.camera.file;
+  const double zoom = scene.camera.zoom;
+  const ReadCamera read = read_camera_file(resolve_file(name, folders, "camera.file"));
+  if (!read.ignored.empty())
+    report_warning(progress, name + ": not taken: " + read.ignored);
+  scene.camera = read.camera;
+  scene.camera.zoom = zoom;
+  validate(scene);
 }
 
 TransferFunction transfer_of(const Scene& scene, const Volume& volume) {
   const TransferSettings& settings = scene.transfer;
   TransferFunction transfer;
-  if (settings.points) {
+  if (settings.file)
+    throw UsageError("transfer.file " + *settings.file + " has not been read");
+  if (!settings.shapes.empty()) {
+    transfer = preset("grey-ramp", volume.min, volume.max); // for what shows single values
+    transfer.name = "shapes";
+  } else if (settings.points) {
     for (const auto& [value, r, g, b, opacity] : *settings.points)
       transfer.points.push_back({value, r, g, b, opacity});
     transfer.name = "points";
@@ -77,15 +139,17 @@ TransferFunction transfer_of(const Scene& scene, const Volume& volume) {
   }
   if (settings.unit_distance)
     transfer.unit_distance = settings.unit_distance;
+  transfer = windowed(std::move(transfer), settings.window, settings.level);
   validate(transfer);
   return transfer;
 }
 
 LoadedVolume load_volume_of(const Scene& scene, std::size_t index, const std::vector<fs::path>& folders,
                             const Progress& progress) {
-  const Scene one = scene_of_volume(scene, index);
+  Scene one = scene_of_volume(scene, index);
   LoadedVolume loaded;
   loaded.volume = load_volume(one.volume, folders, progress);
+  load_transfer_file(one.transfer, loaded.volume, folders, progress);
   loaded.transfer = transfer_of(one, loaded.volume);
   return loaded;
 }

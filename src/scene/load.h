@@ -21,9 +21,23 @@ std::filesystem::path resolve_file(const std::string& file, const std::vector<st
 VolumeSource source_of(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders);
 
 /// Reads the file or makes the phantom. The result has one component: several need `volume.component`, or a
-/// UsageError says so.
+/// UsageError says so. RGB and RGBA without volume.component become luminances with colours (with_luminance).
 Volume load_volume(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders,
                    const Progress& progress);
+
+/// Puts the points that a transfer.file holds in its place, so that the scene stands alone; nothing to do
+/// without one. Tables without transfer.range are stretched over the data's range, those of 256 rows for
+/// uint8 data over [0, 255]. Warns in one line of what was resampled, assumed or left out, and when the data
+/// lie wholly outside of the points.
+void load_transfer_file(TransferSettings& transfer, const Volume& volume,
+                        const std::vector<std::filesystem::path>& folders, const Progress& progress);
+
+/// The same for camera.file: position, focal point and so on take its place.
+void load_camera_file(Scene& scene, const std::vector<std::filesystem::path>& folders,
+                      const Progress& progress);
+
+/// The values of the first and the last row of a table for this volume.
+glm::dvec2 table_range(const Volume& volume, std::size_t rows);
 
 /// A volume and its transfer function.
 struct LoadedVolume {
@@ -40,7 +54,8 @@ std::vector<LoadedVolume> load_others(const Scene& scene, const std::vector<std:
                                       const Progress& progress);
 
 /// The transfer function of the scene: its points, its preset, or without either the automatic one for this
-/// volume (the phantom's own preset for phantoms).
+/// volume (the phantom's own preset for phantoms), stretched by transfer.window and transfer.level. Throws
+/// UsageError for a transfer.file that has not been loaded.
 TransferFunction transfer_of(const Scene& scene, const Volume& volume);
 
 } // namespace slicelens

@@ -32,8 +32,9 @@ const std::vector<EnumName<Pipeline>>& names_of(Pipeline) {
 }
 
 const std::vector<EnumName<Mode>>& names_of(Mode) {
-  static const std::vector<EnumName<Mode>> names = {
-      {Mode::dvr, "dvr"}, {Mode::mip, "mip"}, {Mode::xray, "xray"}};
+  static const std::vector<EnumName<Mode>> names = {{Mode::dvr, "dvr"},     {Mode::mip, "mip"},
+                                                    {Mode::minip, "minip"}, {Mode::average, "average"},
+                                                    {Mode::xray, "xray"},   {Mode::iso, "iso"}};
   return names;
 }
 

@@ -41,6 +41,34 @@ void validate_camera(const CameraSettings& camera) {
     throw UsageError("camera.view_up is the zero vector; give a direction");
 }
 
+void validate_transfer(const TransferSettings& transfer) {
+  const auto refuse = [](const char* a, const char* b) {
+    throw UsageError(std::string("transfer.") + a + " and transfer." + b + " are both given; keep one");
+  };
+  if (transfer.preset && transfer.points)
+    refuse("preset", "points");
+  if (transfer.preset && transfer.file)
+    refuse("preset", "file");
+  if (transfer.points && transfer.file)
+    refuse("points", "file");
+  if (transfer.file && transfer.file->empty())
+    throw UsageError("transfer.file is empty; name a file");
+  if ((transfer.map || transfer.range) && !transfer.file)
+    throw UsageError("transfer.map and transfer.range belong to transfer.file, which is not given");
+  if (transfer.range && !(transfer.range->x < transfer.range->y))
+    throw UsageError("transfer.range must be [first, last] with first below last");
+}
+
+void validate_camera_file(const CameraSettings& camera) {
+  const CameraSettings usual;
+  if (camera.file->empty())
+    throw UsageError("camera.file is empty; name a file");
+  if (camera.position || camera.focal_point || camera.view_up || camera.parallel_scale ||
+      camera.azimuth != 0 || camera.elevation != 0 || camera.roll != 0 ||
+      camera.projection != usual.projection || camera.view_angle != usual.view_angle)
+    throw UsageError("camera.file holds a whole camera; of the other keys only camera.zoom goes with it");
+}
+
 void validate_render(const RenderSettings& render) {
   for (const std::size_t n : render.size) {
     if (n < 1 || n > 32768)
@@ -54,23 +82,48 @@ void validate_render(const RenderSettings& render) {
   if (render.order == Order::front_to_back && !draws_slices(render.pipeline)) {
     throw UsageError("render.order front-to-back is for slices; rays always go front to back");
   }
-  if (render.mode == Mode::xray && render.target == Target::rgba8 && draws_slices(render.pipeline)) {
-    throw UsageError("mode 'xray' sums contributions far below 1/255, which target 'rgba8' rounds to "
+  if ((render.mode == Mode::xray || render.mode == Mode::average) && render.target == Target::rgba8 &&
+      draws_slices(render.pipeline)) {
+    throw UsageError("mode '" + word(render.mode) +
+                     "' sums contributions far below 1/255, which target 'rgba8' rounds to "
                      "nothing; use rgba16f or rgba32f");
   }
+  if (render.mode == Mode::iso && (render.levels > 1 || render.footprint == Footprint::mip ||
+                                   render.tiles != std::array<std::size_t, 3>{1, 1, 1})) {
+    throw UsageError(
+        "mode 'iso' follows one value at full resolution in one texture; set render.tiles to [1,1,1], "
+        "render.levels to 1 and render.footprint to point");
+  }
+  if (render.jitter > 0 && render.tiles != std::array<std::size_t, 3>{1, 1, 1})
+    throw UsageError("render.jitter moves samples out of their tile; set render.tiles to [1,1,1]");
+  if (render.isovalue && render.mode != Mode::iso)
+    throw UsageError("render.isovalue is for mode 'iso'; set render.mode to iso or remove it");
+  if (render.modulate_by_gradient && render.mode != Mode::dvr && render.mode != Mode::xray) {
+    throw UsageError("render.modulate_by_gradient changes opacities, which mode '" + word(render.mode) +
+                     "' does not sum; set render.mode to dvr or xray, or remove it");
+  }
+  const bool meshed = render.pipeline == Pipeline::tessellated || render.pipeline == Pipeline::fixed_function;
+  if (meshed && (render.mode == Mode::iso || render.jitter > 0)) {
+    throw UsageError(std::string(render.mode == Mode::iso ? "mode 'iso'" : "render.jitter") +
+                     " looks off the slice, where pipeline '" + word(render.pipeline) +
+                     "' has no coordinates; take slices, fragment, rays or reference");
+  }
+  if (render.jitter_seed > 0x7fffffff)
+    throw UsageError("render.jitter_seed must be at most 2147483647");
   if (render.mode == Mode::xray && render.shading != Shading::none) {
     throw UsageError("mode 'xray' shows opacity, which has no shading; set render.shading to none");
   }
-  if (render.mode == Mode::mip && render.shading != Shading::none) {
-    throw UsageError("mode 'mip' classifies one value, which has no gradient; set render.shading to none");
+  if (classifies_last(render.mode) && render.shading != Shading::none) {
+    throw UsageError("mode '" + word(render.mode) +
+                     "' classifies one value, which has no gradient; set render.shading to none");
   }
 }
 
 /// Voxels that are classified once cannot be corrected, lit or compared later (docs/pipeline.md).
 void validate_pre_classification(const RenderSettings& render, const CameraSettings& camera) {
-  if (render.mode == Mode::mip) {
-    throw UsageError("render.classification 'pre' holds colours, of which mode 'mip' cannot take the largest "
-                     "value; set render.classification to post");
+  if (classifies_last(render.mode) || render.mode == Mode::iso) {
+    throw UsageError("render.classification 'pre' holds colours, in which mode '" + word(render.mode) +
+                     "' finds no value; set render.classification to post");
   }
   if (render.shading != Shading::none) {
     throw UsageError("render.classification 'pre' holds colours, which have no gradient to shade with; set "
@@ -112,6 +165,11 @@ void validate_preintegrated(const Scene& scene) {
     refuse("classifies values of one resolution", "render.footprint to point");
   if (render.levels != 1)
     refuse("classifies values of one resolution", "render.levels to 1");
+  if (render.jitter > 0)
+    refuse("leaves no gaps between segments for render.jitter to hide", "render.jitter to 0");
+  if (render.modulate_by_gradient || !scene.transfer.shapes.empty())
+    refuse("classifies pairs of values, without the gradient between them",
+           "remove render.modulate_by_gradient and transfer.shapes");
   if (render.transfer_texture != TransferTexture::rgba32f)
     refuse("has a table of floats of its own", "render.transfer_texture to rgba32f");
 }
@@ -158,6 +216,10 @@ void validate_shells(const Scene& scene) {
   if (render.tiles != std::array<std::size_t, 3>{1, 1, 1})
     refuse("crosses tiles at each fragment, and triangles would have to be cut there; set render.tiles to "
            "[1,1,1]");
+  if (render.mode == Mode::iso || render.jitter > 0)
+    refuse(
+        "are not moved along their rays, as mode 'iso' and render.jitter ask for; set render.proxy to planes "
+        "or take pipeline rays");
   if (!scene.planes.empty())
     refuse("has no depth of a polygon for planes to stop; remove planes or set render.proxy to planes");
   if (scene.overlay.stack != 0)
@@ -186,6 +248,12 @@ void validate_effects(const Scene& scene) {
     throw UsageError("render.classification 'pre' holds colours whose opacity is corrected already, which " +
                      section + " would change too late; set render.classification to post");
   }
+  if (render.mode == Mode::average) {
+    throw UsageError("mode 'average' has no one sample for " + section +
+                     " to follow; set render.mode to another or remove it");
+  }
+  if (render.mode == Mode::iso && scene.attenuation.function != AttenuationFunction::off)
+    throw UsageError("mode 'iso' shows an opaque surface, which attenuation would open; remove it");
   (void)focus_effects(scene.highlight, scene.attenuation, focus_region(scene.warp));
 }
 
@@ -337,11 +405,15 @@ bool carries_gradients(const Warp& warp) {
 
 void validate_gradients(const Scene& scene) {
   const RenderSettings& render = scene.render;
+  if (render.modulate_by_gradient && render.classification == Classification::pre) {
+    throw UsageError("render.classification 'pre' holds colours, which have no gradient to modulate by; set "
+                     "render.classification to post or remove render.modulate_by_gradient");
+  }
   if (render.gradient_sigma < 0.3 || render.gradient_sigma > 8) {
     throw UsageError("render.gradient_sigma must be from 0.3 to 8 voxels of the copy, not " +
                      number_text(render.gradient_sigma));
   }
-  if (render.shading == Shading::none)
+  if (!uses_gradients(scene))
     return;
   const bool own_texture =
       render.gradient == Gradient::prefiltered || render.gradient == Gradient::precomputed;
@@ -362,6 +434,27 @@ void validate_gradients(const Scene& scene) {
     throw UsageError("render.gradient_space 'object' may look anywhere in the volume, which render.tiles and "
                      "render.levels do not hold in one texture; set render.gradient_space to data, or "
                      "render.tiles to [1,1,1] and render.levels to 1");
+  }
+}
+
+/// Smallest side of a picture that has room for lettering, in pixels.
+constexpr std::size_t smallest_annotated = 64;
+
+void validate_annotations(const Scene& scene) {
+  const auto& size = scene.render.size;
+  const std::size_t legends = smallest_annotated * volume_count(scene);
+  if (scene.overlay.legend && std::min(size[0], size[1]) < legends) {
+    throw UsageError("overlay.legend of " + std::to_string(volume_count(scene)) +
+                     " volume(s) needs a picture of at least " + std::to_string(legends) +
+                     " pixels on each side; raise render.size");
+  }
+  if (is_annotated(scene.overlay) && std::min(size[0], size[1]) < smallest_annotated) {
+    throw UsageError("overlay.scale_bar and labels need a picture of at least " +
+                     std::to_string(smallest_annotated) + " pixels on each side; raise render.size");
+  }
+  if (scene.overlay.legend && scene.render.mode == Mode::xray) {
+    throw UsageError("overlay.legend shows the transfer function's colours, which mode 'xray' does not; set "
+                     "it to false");
   }
 }
 
@@ -387,9 +480,36 @@ void validate_several(const Scene& scene) {
     refuse("have no one value for a cutting plane to show; remove planes, or show one volume");
   if (scene.overlay.stack != 0)
     refuse("have no overlay.stack; set it to 0");
-  if (has_effects(scene) && render.mode == Mode::mip)
-    refuse("under mode 'mip' have a winner each, which highlight and attenuation cannot follow; set "
+  if (render.mode == Mode::average || render.mode == Mode::iso)
+    refuse("have no one value to show under mode '" + word(render.mode) + "'; set render.mode to another");
+  if (has_effects(scene) && classifies_last(render.mode))
+    refuse("under mode '" + word(render.mode) +
+           "' have a winner each, which highlight and attenuation cannot follow; set "
            "render.mode to dvr or xray");
+}
+
+/// A transfer function of value and gradient.
+void validate_shapes(const Scene& scene) {
+  const TransferSettings& transfer = scene.transfer;
+  if (transfer.shapes.empty())
+    return;
+  if (transfer.preset || transfer.points || transfer.file)
+    throw UsageError("transfer.shapes excludes preset, points and file; keep one");
+  if (transfer.shapes.size() > 256)
+    throw UsageError("transfer.shapes: give at most 256");
+  validate(transfer.shapes);
+  const RenderSettings& render = scene.render;
+  if (render.mode != Mode::dvr && render.mode != Mode::xray) {
+    throw UsageError("transfer.shapes need a gradient, which mode '" + word(render.mode) +
+                     "' does not have; set render.mode to dvr or xray");
+  }
+  if (render.classification == Classification::pre) {
+    throw UsageError(
+        "render.classification 'pre' classifies voxels, which have no gradient yet; set it to post, "
+        "or give transfer.points for transfer.shapes");
+  }
+  if (render.modulate_by_gradient)
+    throw UsageError("transfer.shapes follow the gradient themselves; remove render.modulate_by_gradient");
 }
 
 void validate_placement(const Placement& placement) {
@@ -402,6 +522,10 @@ void validate_placement(const Placement& placement) {
 }
 
 } // namespace
+
+bool is_annotated(const OverlaySettings& overlay) {
+  return overlay.legend || overlay.scale_bar || overlay.labels;
+}
 
 Scene scene_of_volume(const Scene& scene, std::size_t index) {
   Scene one = scene;
@@ -477,6 +601,14 @@ void validate(const OverlaySettings& overlay) {
     throw UsageError("overlay.landmarks must be a radius of at most 1000 pixels, not " +
                      number_text(overlay.landmarks));
   }
+  if (overlay.stack != 0 && is_annotated(overlay)) {
+    throw UsageError("overlay.stack shows the slices from the side, where legend, scale_bar and labels would "
+                     "be wrong; set them to false, or overlay.stack to 0");
+  }
+  if (overlay.unit && overlay.unit->size() > max_unit_letters) {
+    throw UsageError("overlay.unit '" + *overlay.unit + "' is too long; give at most " +
+                     std::to_string(max_unit_letters) + " letters");
+  }
 }
 
 void validate(const Scene& scene) {
@@ -484,6 +616,7 @@ void validate(const Scene& scene) {
     if (volume_count(scene) > max_volumes)
       throw UsageError("volumes: at most " + std::to_string(max_volumes) + " can be shown at once");
     validate_several(scene);
+    validate_annotations(scene);
     for (std::size_t i = 0; i < volume_count(scene); ++i) {
       try {
         validate(scene_of_volume(scene, i));
@@ -494,10 +627,11 @@ void validate(const Scene& scene) {
     return;
   }
   validate_placement(scene.placement);
+  validate_shapes(scene);
   validate_volume(scene.volume);
-  if (scene.transfer.preset && scene.transfer.points) {
-    throw UsageError("transfer.preset and transfer.points are both given; keep one");
-  }
+  validate_transfer(scene.transfer);
+  if (scene.camera.file)
+    validate_camera_file(scene.camera);
   validate_camera(scene.camera);
   if (scene.render.pipeline == Pipeline::fixed_function)
     validate_fixed_function(scene.render);
@@ -510,6 +644,7 @@ void validate(const Scene& scene) {
     throw UsageError("light.direction is the zero vector; give a direction");
   }
   validate(scene.overlay);
+  validate_annotations(scene);
   validate_shells(scene);
   validate_warps(scene);
   validate_effects(scene);
@@ -517,6 +652,12 @@ void validate(const Scene& scene) {
   validate_footprint(scene);
   validate_planes(scene);
   validate_gradients(scene);
+  if (scene.crop) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(scene.crop->low[axis] < scene.crop->high[axis]))
+        throw UsageError("crop.low must be below crop.high on every axis");
+    }
+  }
   for (const ClipSettings& plane : scene.clip) {
     if (glm::length(plane.normal) == 0)
       throw UsageError("clip: a plane's normal is the zero vector; give a direction");

@@ -1,6 +1,7 @@
 // The scene: everything that decides a picture, as plain values (docs/scenes.md is the contract of its keys).
 #pragma once
 
+#include "volume/transfer_2d.h"
 #include "volume/volume.h"
 #include "warp/focus_effects.h"
 #include "warp/warp.h"
@@ -32,13 +33,20 @@ struct TransferSettings {
   std::optional<std::string> preset = std::nullopt;
   std::optional<std::vector<std::array<double, 5>>> points =
       std::nullopt;                                   ///< value (data units), r, g, b, opacity in [0,1]
+  std::vector<TransferShape> shapes = {};             ///< of value and gradient, instead of the others
+  std::optional<std::string> file = std::nullopt;     ///< as given (scene/transfer_files.h)
+  std::optional<std::string> map = std::nullopt;      ///< of a file that holds several
+  std::optional<glm::dvec2> range = std::nullopt;     ///< onto which the points of a file are stretched
   std::optional<double> unit_distance = std::nullopt; ///< Δ₀, world units; none: h
+  std::optional<double> window = std::nullopt;        ///< width of its values, data units; none: its own
+  std::optional<double> level = std::nullopt;         ///< their middle, data units; none: its own
 };
 
 enum class ProjectionName { orthographic, perspective };
 
 /// Section `camera`. Angles in degrees, positions in world space (LPS).
 struct CameraSettings {
+  std::optional<std::string> file = std::nullopt; ///< as given; excludes everything else but zoom
   double azimuth = 0;
   double elevation = 0;
   double roll = 0;
@@ -52,7 +60,7 @@ struct CameraSettings {
 };
 
 enum class Pipeline { slices, tessellated, axis, fragment, grid, fixed_function, rays, reference };
-enum class Mode { dvr, mip, xray };
+enum class Mode { dvr, mip, minip, average, xray, iso };
 enum class Order { back_to_front, front_to_back };
 /// What slices are: planes, or under perspective shells about the eye, whose samples are those of rays.
 enum class Proxy { planes, shells };
@@ -84,7 +92,14 @@ struct RenderSettings {
   Mode mode = Mode::dvr;
   std::optional<double> xray_scale = std::nullopt; ///< none: one over the box diagonal in Δ₀
   std::array<std::size_t, 2> size{512, 512};
-  double spacing = 1; ///< in units of h
+  std::optional<double> isovalue =
+      std::nullopt; ///< of mode iso, data units; none: middle of the data's range
+  /// Gradient, in data units per world unit, from which on opacities are the transfer function's; below they
+  /// are lowered in proportion (Levoy 1988). None: never.
+  std::optional<double> modulate_by_gradient = std::nullopt;
+  double jitter = 0;           ///< of the samples of each pixel along its ray, in slice distances: 0 to 1
+  std::size_t jitter_seed = 1; ///< of the pixels' offsets
+  double spacing = 1;          ///< in units of h
   Order order = Order::back_to_front;
   Proxy proxy = Proxy::planes;
   OpacityCorrection opacity_correction = OpacityCorrection::fragment;
@@ -135,6 +150,13 @@ struct ClipSettings {
   ClipSpace space = ClipSpace::texture;
 };
 
+/// Section `crop`: the part of the volume that is kept.
+struct CropSettings {
+  glm::dvec3 low{0}; ///< texture coordinates
+  glm::dvec3 high{1};
+  ClipSpace space = ClipSpace::texture;
+};
+
 enum class PlaneStyle { values, transfer };
 
 /// One entry of `planes`: an opaque polygon that shows the displayed volume where it cuts it.
@@ -147,7 +169,10 @@ struct PlaneSettings {
 
 enum class Wireframe { none, segments, triangles };
 
-/// Section `overlay`: lines and false colours drawn over the picture.
+/// Most letters of overlay.unit.
+inline constexpr std::size_t max_unit_letters = 8;
+
+/// Section `overlay`: lines, false colours and lettering drawn over the picture.
 struct OverlaySettings {
   Wireframe wireframe = Wireframe::none;
   bool outline = false;
@@ -157,6 +182,11 @@ struct OverlaySettings {
   double stack =
       0; ///< volumes only: degrees the camera goes aside to show the slices themselves; 0: the volume
   double landmarks = 0; ///< volumes only: radius in pixels of the circles around landmarks; 0: none
+  // Volumes only (render/annotations.h).
+  bool legend = false;
+  bool scale_bar = false;
+  bool labels = false;
+  std::optional<std::string> unit = std::nullopt; ///< behind lengths; none: what the format says
 };
 
 /// Section `pick`.
@@ -200,6 +230,7 @@ struct Scene {
   RenderSettings render;
   LightSettings light;
   std::vector<ClipSettings> clip;
+  std::optional<CropSettings> crop;
   std::vector<Warp> warp; ///< in forward order (docs/pipeline.md)
   Highlight highlight;
   Attenuation attenuation;
@@ -238,6 +269,19 @@ bool draws_slices(Pipeline pipeline);
 /// warps in the data, all others in object space (Brunet, Nowak and Gleicher 2006, eq. 1).
 GradientSpace gradient_space_of(const Scene& scene);
 
+/// Whether a mode shows one value of each ray, which is classified at the end.
+inline bool classifies_last(Mode mode) {
+  return mode == Mode::mip || mode == Mode::minip || mode == Mode::average;
+}
+
+/// Whether samples need the gradient of what is shown.
+inline bool uses_gradients(const RenderSettings& render) {
+  return render.shading != Shading::none || render.modulate_by_gradient.has_value();
+}
+inline bool uses_gradients(const Scene& scene) {
+  return uses_gradients(scene.render) || !scene.transfer.shapes.empty();
+}
+
 /// Whether the scene highlights or attenuates anything.
 bool has_effects(const Scene& scene);
 
@@ -249,6 +293,9 @@ Pipeline default_pipeline(const Scene& scene);
 /// pre, target rgba8 and opacity correction frame.
 void use_pipeline_defaults(RenderSettings& render, bool classification_given, bool target_given,
                            bool correction_given);
+
+/// Whether a legend, a scale bar or labels are drawn.
+bool is_annotated(const OverlaySettings& overlay);
 
 /// Throws UsageError naming the key.
 void validate(const OverlaySettings& overlay);

@@ -39,7 +39,7 @@ Scene scene_from_json(const std::string& text, const std::string& source,
 std::string scene_to_json(const Scene& scene, int indent) {
   Writer writer;
   scene_keys(writer, scene);
-  return writer.object.dump(indent, ' ', true);
+  return writer.object.dump(indent, ' ', true, Json::error_handler_t::replace);
 }
 
 std::vector<std::pair<std::string, std::string>> list_scene_keys() {

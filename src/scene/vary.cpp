@@ -75,7 +75,7 @@ std::vector<KeyValue> changes_at(const std::vector<Variation>& variations, doubl
   std::vector<KeyValue> changes;
   for (const Variation& variation : variations) {
     const Json value = between(Json::parse(variation.from), Json::parse(variation.to), t, variation.whole);
-    changes.push_back({variation.key, value.dump()});
+    changes.push_back({variation.key, value.dump(-1, ' ', true, Json::error_handler_t::replace)});
   }
   return changes;
 }

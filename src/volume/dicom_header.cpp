@@ -189,10 +189,17 @@ private:
     if (element.length == undefined) {
       // UN of undefined length is implicit VR inside (PS3.5 §6.2.2, note 7).
       const Encoded inner = element.vr == "UN" ? Encoded{false, false} : encoded;
-      return sequence(at, end, inner, depth, true);
+      groups_ += is_groups(element.tag) ? 1 : 0;
+      at = sequence(at, end, inner, depth, true);
+      groups_ -= is_groups(element.tag) ? 1 : 0;
+      return at;
     }
-    if (element.vr == "SQ")
+    if (element.vr == "SQ" || (element.vr.empty() && is_known_sequence(element.tag))) {
+      groups_ += is_groups(element.tag) ? 1 : 0;
       sequence(at, at + element.length, encoded, depth, false);
+      groups_ -= is_groups(element.tag) ? 1 : 0;
+    } else if (groups_ > 0 && is_frame_value(element.tag))
+      header_.frame_values[element.tag].emplace_back(bytes_.substr(at, element.length));
     else if (depth == 0 && element.length <= 1u << 16)
       header_.values[element.tag] = std::string(bytes_.substr(at, element.length));
     return at + element.length;
@@ -249,6 +256,17 @@ private:
       damaged("a JPEG 2000 picture in it is not of Rows x Columns x Samples; the file is damaged");
   }
 
+  /// Shared and Per-frame Functional Groups Sequence.
+  static bool is_groups(std::uint32_t tag) { return tag == 0x52009229 || tag == 0x52009230; }
+  /// In implicit VR a sequence is known by its tag alone: those that hold what is_frame_value names.
+  static bool is_known_sequence(std::uint32_t tag) {
+    return is_groups(tag) || tag == 0x00209113 || tag == 0x00209116 || tag == 0x00289110;
+  }
+  static bool is_frame_value(std::uint32_t tag) {
+    return tag == 0x00200032 || tag == 0x00200037 || tag == 0x00280030;
+  }
+
+  int groups_ = 0; ///< functional groups that the walk is inside of
   const fs::path& path_;
   std::string_view bytes_;
   DicomHeader& header_;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace slicelens {
 
@@ -17,6 +18,9 @@ struct DicomHeader {
   bool big_endian = false;     ///< byte order of binary values
   std::map<std::uint32_t, std::string>
       values; ///< group << 16 | element → bytes; top level, up to 64 KiB each
+  /// Of the functional groups of an enhanced multi-frame file (PS3.3 C.7.6.16): the values of Image Position,
+  /// Image Orientation and Pixel Spacing, one for each frame in order or one for all.
+  std::map<std::uint32_t, std::vector<std::string>> frame_values;
   bool has_pixels = false;
   std::uintmax_t pixel_bytes = 0; ///< stored bytes of the pixel data
 

@@ -154,6 +154,21 @@ std::vector<DicomFile> frame_of(const std::vector<DicomFile>& sorted, const std:
   return result;
 }
 
+/// The frames of an enhanced file as slices.
+std::vector<DicomFile> slices_of(const DicomFile& file) {
+  std::vector<DicomFile> slices;
+  for (std::size_t k = 0; k < file.frame_positions.size(); ++k) {
+    DicomFile slice = file;
+    slice.frames = 1;
+    slice.frame_positions.clear();
+    slice.position = file.frame_positions[k];
+    slice.index = k;
+    slice.number = static_cast<long long>(k);
+    slices.push_back(slice);
+  }
+  return slices;
+}
+
 /// Distance and direction from slice to slice.
 void measure(DicomStack& stack, const glm::dvec3& normal, const std::string& source,
              const Progress& progress) {
@@ -169,16 +184,20 @@ void measure(DicomStack& stack, const glm::dvec3& normal, const std::string& sou
     largest = std::max(largest, gap);
     worst = std::max(worst, std::abs(gap - spacing) / spacing);
   }
+  const glm::dvec3 step = (*slices.back().position - *slices.front().position) / static_cast<double>(gaps);
+  const double sideways = glm::length(step - glm::dot(step, normal) * normal);
+  // 0.1 % (0.06°) is the rounding of the cosines; more is a tilted gantry.
+  const bool tilted = sideways > 1e-3 * spacing;
+  const double degrees = std::atan2(sideways, spacing) * 180 / 3.14159265358979;
+  const std::string tilt = number_text(std::round(degrees * 100) / 100) + " degrees (tilted gantry)";
   const std::string uneven = "slice distances from " + number_text(std::round(smallest * 1e4) / 1e4) +
                              " to " + number_text(std::round(largest * 1e4) / 1e4) + " mm";
   if (worst > 0.1)
     throw FileError(source,
-                    "has uneven " + uneven +
+                    "has uneven " + uneven + (tilted ? " and is sheared by " + tilt : "") +
                         "; slices are missing or the scan is a mixed one: resample it to one distance");
   if (worst > 0.01)
     report_warning(progress, source + ": " + uneven + "; their mean is used");
-  const glm::dvec3 step = (*slices.back().position - *slices.front().position) / static_cast<double>(gaps);
-  const double sideways = glm::length(step - glm::dot(step, normal) * normal);
   for (std::size_t k = 0; k < slices.size(); ++k) {
     const glm::dvec3 expected = *slices.front().position + step * static_cast<double>(k);
     const glm::dvec3 off = *slices[k].position - expected;
@@ -186,14 +205,10 @@ void measure(DicomStack& stack, const glm::dvec3& normal, const std::string& sou
       throw FileError(slices[k].file.string(),
                       "lies beside the line of the other slices; the series mixes scans");
   }
-  // 0.1 % (0.06°) is the rounding of the cosines; more is a tilted gantry.
-  if (sideways > 1e-3 * spacing) {
+  if (tilted) {
     stack.axis = glm::normalize(step);
     stack.spacing = glm::length(step);
-    const double degrees = std::atan2(sideways, spacing) * 180 / 3.14159265358979;
-    report_warning(progress, source + ": the slices are sheared by " +
-                                 number_text(std::round(degrees * 100) / 100) +
-                                 " degrees (tilted gantry); the axes are kept so");
+    report_warning(progress, source + ": the slices are sheared by " + tilt + "; the axes are kept so");
     return;
   }
   stack.spacing = spacing;
@@ -223,6 +238,10 @@ DicomStack stack_of(std::vector<DicomFile> files, const fs::path& named, const s
   }
   check_alike(files);
   DicomStack stack;
+  if (files.size() == 1 && files.front().axes && files.front().frame_positions.size() > 1) {
+    stack.one_file = true;
+    files = slices_of(files.front());
+  }
   if (files.size() == 1) {
     stack.slices = files;
     return stack;
@@ -243,7 +262,7 @@ DicomStack stack_of(std::vector<DicomFile> files, const fs::path& named, const s
     file.along = glm::dot(*file.position, normal);
   std::stable_sort(files.begin(), files.end(),
                    [](const DicomFile& a, const DicomFile& b) { return a.along < b.along; });
-  if (!named.empty() && files.back().along - files.front().along <= same_position) {
+  if (!named.empty() && !stack.one_file && files.back().along - files.front().along <= same_position) {
     // Many pictures of one slice (a time series, other reconstructions): the file that was named is meant.
     for (const DicomFile& file : files) {
       if (file.file == named)

@@ -25,7 +25,10 @@ struct DicomFile {
   std::optional<glm::dvec3> position; ///< Image Position (Patient), mm, LPS
   std::optional<glm::dmat2x3> axes;   ///< Image Orientation (Patient): directions of columns' and rows' index
   double along = 0;                   ///< position along the slice normal, mm
-  long long temporal = 0;             ///< Temporal Position Identifier
+  std::vector<glm::dvec3> frame_positions; ///< of an enhanced file's frames; empty when it has none for each
+  std::optional<glm::dvec2> pixel_spacing; ///< of an enhanced file: between columns, between rows, mm
+  std::size_t index = 0;  ///< which picture of the file, once its frames are slices of a stack
+  long long temporal = 0; ///< Temporal Position Identifier
   long long acquisition = 0;
   long long number = 0; ///< Instance Number
   bool mosaic = false;  ///< Siemens mosaic: many slices in one picture
@@ -38,6 +41,7 @@ DicomFile scan_dicom(const std::filesystem::path& path);
 /// A stack of slices: one frame of a series.
 struct DicomStack {
   std::vector<DicomFile> slices;  ///< ascending along the normal
+  bool one_file = false;          ///< slices are the pictures `index` of one enhanced file
   std::size_t frames = 1;         ///< how many stacks share these positions
   std::optional<double> spacing;  ///< from the positions; none for a single slice or without positions
   std::optional<glm::dvec3> axis; ///< unit world direction from slice to slice (the normal, unless sheared)

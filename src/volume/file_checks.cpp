@@ -27,6 +27,8 @@ std::uintmax_t expansion_of(Encoding encoding) {
   switch (encoding) {
   case Encoding::deflate:
     return 1032;
+  case Encoding::bzip2:
+    return 1 << 20;
   case Encoding::codec:
     return 16384;
   case Encoding::raw:
@@ -89,7 +91,8 @@ void check_claim(const fs::path& path, const std::string& field, std::uintmax_t 
                : stored * expansion_of(encoding);
   if (claimed <= most)
     return;
-  const bool packed = encoding == Encoding::deflate || encoding == Encoding::codec;
+  const bool packed =
+      encoding == Encoding::deflate || encoding == Encoding::bzip2 || encoding == Encoding::codec;
   throw FileError(path.string(), "'" + field + "' claims " + std::to_string(claimed) +
                                      " bytes of voxels but the data are " + std::to_string(stored) +
                                      (packed ? " compressed bytes, which cannot hold them" : " bytes") +

@@ -13,6 +13,7 @@ namespace slicelens {
 enum class Encoding {
   raw,     ///< as they are
   deflate, ///< zlib or gzip: at most 1032 bytes out of one (RFC 1951: a 258 byte match takes 2 bits)
+  bzip2,   ///< at most a million bytes out of one: a block of 900 000 run lengths of 255 in some 45 bytes
   text,    ///< decimal numbers with separators: at least two characters each
   hex,     ///< two characters a byte
   codec    ///< an image codec (JPEG, RLE, LZW …): bounded loosely

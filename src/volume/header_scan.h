@@ -19,13 +19,14 @@ struct HeaderScan {
   std::uintmax_t offset = 0; ///< of the voxels in the (first) data file
   std::uintmax_t stored = 0; ///< bytes that they take there
   bool big_endian = false;
+  std::uintmax_t claimed = 0; ///< bytes that they are once decoded, all frames
 };
 
 /// Each throws FileError when the header is not one of its format, a needed field is missing or wrong, the
 /// kind of data is not supported, a data file is missing, or the claim does not fit the files.
-HeaderScan scan_nrrd(const std::filesystem::path& path);
 HeaderScan scan_meta(const std::filesystem::path& path);
-HeaderScan scan_vtk(const std::filesystem::path& path);
+/// Sets the volume's dims, spacing, origin, type and components as well.
+HeaderScan scan_vtk(const std::filesystem::path& path, Volume& volume);
 
 /// Fills volume.voxels (sized) from the one file that `scan` names (`path` itself when the data are
 /// attached): raw, zlib or gzip, or text, in full and with checksums verified, which MetaIO and ITK's VTK

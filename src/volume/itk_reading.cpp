@@ -19,6 +19,15 @@
 #include <regex>
 #include <sstream>
 
+// Sanitizers report to stderr too (GCC's macro and clang's way of asking).
+#if defined(__has_feature)
+#if !__has_feature(address_sanitizer)
+#define SLICELENS_CAPTURE_STDERR
+#endif
+#elif !defined(__SANITIZE_ADDRESS__)
+#define SLICELENS_CAPTURE_STDERR
+#endif
+
 namespace slicelens {
 
 namespace fs = std::filesystem;
@@ -119,7 +128,7 @@ void read_geometry(itk::ImageIOBase& io, const fs::path& path, Volume& volume) {
 class CapturedStderr {
 public:
   CapturedStderr() {
-#ifndef __SANITIZE_ADDRESS__
+#ifdef SLICELENS_CAPTURE_STDERR
     std::fflush(stderr);
     file_ = ::memfd_create("slicelens messages", MFD_CLOEXEC);
     saved_ = file_ < 0 ? -1 : ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);

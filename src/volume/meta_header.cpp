@@ -186,7 +186,8 @@ HeaderScan scan_meta(const fs::path& path) {
                                    std::max<std::uintmax_t>(1, scan.data_files.size());
     stored -= std::min(stored, skipped);
   }
-  check_claim(path, "DimSize", claimed_bytes(path, "DimSize", all_sizes, scalar), stored, encoding, scalar);
+  scan.claimed = claimed_bytes(path, "DimSize", all_sizes, scalar);
+  check_claim(path, "DimSize", scan.claimed, stored, encoding, scalar);
   scan.encoding = encoding;
   scan.stored = stored;
   if (encoding != Encoding::raw && scan.data_files.size() > 1)

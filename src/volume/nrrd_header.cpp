@@ -129,12 +129,14 @@ Encoding encoding_of(const fs::path& path, const std::string& name) {
     return Encoding::raw;
   if (encoding == "gzip" || encoding == "gz")
     return Encoding::deflate;
+  if (encoding == "bzip2" || encoding == "bz2")
+    return Encoding::bzip2;
   if (encoding == "ascii" || encoding == "text" || encoding == "txt")
     return Encoding::text;
   if (encoding == "hex")
     return Encoding::hex;
   throw FileError(path.string(),
-                  "'encoding: " + one_line(name) + "' is not supported; write it again as raw or gzip");
+                  "'encoding: " + one_line(name) + "' is not known; raw, gzip, bzip2, ascii and hex are");
 }
 
 std::vector<fs::path> data_files_of(const fs::path& path, const NrrdHeader& header) {
@@ -170,8 +172,9 @@ long long skip_of(const fs::path& path, const NrrdHeader& header, const std::str
   return skip[0];
 }
 
-/// The words of `space directions`: "(1,0,0)" or "none". Blanks inside the brackets are allowed.
-std::vector<std::string> direction_words(const std::string& text) {
+} // namespace
+
+std::vector<std::string> nrrd_vector_words(const std::string& text) {
   std::vector<std::string> words;
   for (std::size_t at = 0; at < text.size();) {
     if (text[at] == '(') {
@@ -188,6 +191,8 @@ std::vector<std::string> direction_words(const std::string& text) {
   }
   return words;
 }
+
+namespace {
 
 NrrdHeader::Axis axis_of_kind(const fs::path& path, const std::string& kind) {
   using Axis = NrrdHeader::Axis;
@@ -214,7 +219,7 @@ std::vector<NrrdHeader::Axis> axes_of(const fs::path& path, const NrrdHeader& he
     for (std::size_t axis = 0; axis < axes.size(); ++axis)
       axes[axis] = axis_of_kind(path, words[axis]);
   } else if (directions) {
-    const auto words = direction_words(*directions);
+    const auto words = nrrd_vector_words(*directions);
     const bool any = std::any_of(words.begin(), words.end(), [](const auto& w) { return w[0] == '('; });
     for (std::size_t axis = 0; any && axis < axes.size() && axis < words.size(); ++axis) {
       if (words[axis][0] != '(')
@@ -234,9 +239,6 @@ std::vector<NrrdHeader::Axis> axes_of(const fs::path& path, const NrrdHeader& he
     if (axes[axis] == Axis::component && header.sizes[axis] > 4)
       throw FileError(path.string(),
                       "has " + std::to_string(header.sizes[axis]) + " components; 1 to 4 are supported");
-    if (axes[axis] == Axis::frame && axis != 0 && axis + 1 != axes.size())
-      throw FileError(path.string(), "has its frames on axis " + std::to_string(axis) +
-                                         "; they must be the first or the last axis");
   }
   return axes;
 }
@@ -272,7 +274,7 @@ NrrdHeader parse_nrrd(const fs::path& path) {
                                        " numbers but 'dimension' is " + std::to_string(dimension[0]));
   header.scalar_bytes = scalar_bytes_of(path, required_field(path, header, "type"));
   header.encoding = encoding_of(path, required_field(path, header, "encoding"));
-  const bool binary = header.encoding == Encoding::raw || header.encoding == Encoding::deflate;
+  const bool binary = header.encoding != Encoding::text;
   if (header.scalar_bytes > 1 && binary) {
     const std::string endian = lower(field_of(header, "endian").value_or(""));
     if (endian != "little" && endian != "big")
@@ -308,12 +310,6 @@ NrrdHeader parse_nrrd(const fs::path& path) {
                       "'encoding: gzip' but the data are not; the header is wrong or the file damaged");
   }
   return header;
-}
-
-HeaderScan scan_nrrd(const fs::path& path) {
-  HeaderScan scan;
-  scan.data_files = parse_nrrd(path).data_files;
-  return scan;
 }
 
 } // namespace slicelens

@@ -30,7 +30,11 @@ struct NrrdHeader {
   std::vector<Axis> axes;
 };
 
-/// Parses and checks a header as scan_nrrd does.
+/// Parses and checks a header, whether its data files are there and whether they can hold what it claims.
+/// Throws FileError.
 NrrdHeader parse_nrrd(const std::filesystem::path& path);
+
+/// The words of `space directions` and the like: "(1,0,0)" or "none". Blanks inside the brackets are allowed.
+std::vector<std::string> nrrd_vector_words(const std::string& text);
 
 } // namespace slicelens

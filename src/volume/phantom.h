@@ -27,10 +27,12 @@ const std::vector<PhantomInfo>& phantoms();
 /// solids are averaged over about one voxel, so that they have no stairs).
 ///
 /// Place in the world: every phantom fills its box at any `size` ≥ 1 per axis, and the box has the same shape
-/// at any size: a cube, but for `engine`, which is half as high as long. The longest edge is 256 mm for
-/// the heads, and max(size) units otherwise, so cubic sizes have spacing 1 (and `engine` at
-/// 2n×2n×n); in general spacing = edge/size per axis. The box centre is the world origin; direction is the
-/// identity, which in LPS puts a head's left at +x, its back at +y and its crown at +z.
+/// at any size: a cube, but for `engine` and the organs,
+/// which are half as high as long, and `colon`, which is half as deep. The longest edge is 256 mm for
+/// the heads, 160 mm for the organs and 320 mm for the colon, and max(size) units otherwise, so cubic sizes
+/// have spacing 1 (and `engine` at 2n×2n×n); in general spacing = edge/size per axis. The box centre is the
+/// world origin; direction is the identity, which in LPS puts a head's left at +x, its back at +y and its
+/// crown at +z.
 ///
 /// Deterministic: the same bytes whatever the number of threads. Throws UsageError for an unknown name
 /// (naming the nearest) or a zero size, and LimitError, before any allocation, for more than kMaxPhantomEdge
@@ -43,6 +45,16 @@ Volume make_phantom(const std::string& name, const Progress& progress = {});
 
 /// The entry of phantoms(). Throws UsageError naming the nearest one.
 const PhantomInfo& phantom_info(const std::string& name);
+
+/// One label of `organs-labels` and the value of the same organ in `organs`.
+struct OrganInfo {
+  int label = 0; ///< 0 is the air outside
+  std::string name;
+  double value = 0;
+};
+
+/// All labels in ascending order, each label its own index.
+const std::vector<OrganInfo>& organs();
 
 constexpr std::size_t kMaxPhantomEdge = 16384;
 constexpr std::size_t kMaxPhantomBytes = std::size_t{4} << 30;

@@ -45,5 +45,8 @@ PhantomRows brick_rows();
 PhantomRows engine_rows();
 PhantomRows head_rows(bool magnetic_resonance);
 PhantomRows head_artery_rows();
+PhantomRows organ_rows();
+PhantomRows organ_label_rows();
+PhantomRows colon_rows();
 
 } // namespace slicelens

@@ -5,6 +5,7 @@
 #include "volume/file_checks.h"
 #include "volume/header_scan.h"
 #include "volume/nifti_header.h"
+#include "volume/nrrd_header.h"
 #include "volume/readers.h"
 
 #include <fnmatch.h>
@@ -264,7 +265,7 @@ std::vector<fs::path> files_of(const VolumeSource& source) {
   std::vector<fs::path> data;
   switch (input.kind) {
   case Kind::nrrd:
-    data = scan_nrrd(source.file).data_files;
+    data = parse_nrrd(source.file).data_files;
     break;
   case Kind::meta:
     data = scan_meta(source.file).data_files;

@@ -35,16 +35,8 @@ struct VolumeSource {
 /// means: scl_slope (NIfTI) and rescale slope and intercept (DICOM) are applied. All 1 to 4 components are
 /// kept unless `component` names one.
 ///
-/// | `format`    | files                                                                                    |
-/// |-------------|------------------------------------------------------------------------------------------|
-/// | "NRRD"      | .nrrd, .nhdr (raw, gzip, ascii, hex; detached; lists and patterns of data files) | |
-/// "MetaImage" | .mha, .mhd                                                                               |
-/// | "NIfTI"     | .nii, .nii.gz, .hdr/.img pairs; RAS becomes LPS; Analyze 7.5 | | "DICOM"     | a series
-/// sorted by position along the slice normal; multi-frame files                    | | "VTK"       | legacy
-/// .vtk structured points                                                            | | "VTI"       | .vti:
-/// VTK XML image data (ascii, base64, appended; zlib)                                  | | "PNG stack", "TIFF
-/// stack", "JPEG stack" | images of one size in natural order; spacing 1 unless given  | | "raw"       |
-/// headerless: size and type from keys or from a name such as foot_256x256x256_uint8.raw    |
+/// `format` is "NRRD", "MetaImage", "NIfTI" (RAS becomes LPS), "DICOM", "VTK", "VTI", "PNG stack", "TIFF stack",
+/// "JPEG stack" or "raw"; docs/volumes.md says what of each is read.
 ///
 /// Throws FileError for a file that is damaged, truncated, unsupported or whose header claims more than its
 /// files can hold (before anything of the claimed size is allocated), UsageError for a `frame`, `component`,

@@ -94,11 +94,24 @@ void narrow(Volume& image) {
   image.type = ScalarType::i16;
 }
 
+/// Lines of GDCM that say nothing a user could act on: what it tried before it found the decoder, and that a
+/// file has no place in the world, which is said once below.
+bool is_noise(const std::string& message) {
+  for (const char* text :
+       {"Unsupported JPEG data precision", "DICOM header said it was", "more bits actually stored on disk",
+        "Could not find Spacing", "Could not find Origin", "Image Orientation (Patient) was not found"}) {
+    if (message.find(text) != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
 /// Warnings that every slice repeats are passed on once.
 Progress saying_once(const Progress& progress) {
   Progress once = progress;
   once.warn = [progress, said = std::set<std::string>()](const std::string& message) mutable {
-    if (said.insert(message.substr(std::min(message.size(), message.find(": ")))).second)
+    if (!is_noise(message) &&
+        said.insert(message.substr(std::min(message.size(), message.find(": ")))).second)
       report_warning(progress, message);
   };
   return once;
@@ -198,6 +211,79 @@ DicomStack stack_for(const std::vector<fs::path>& candidates, const fs::path& na
 
 } // namespace
 
+namespace {
+
+/// What the functional groups of an enhanced file say of its frames.
+void read_groups(const fs::path& path, const DicomHeader& header, DicomFile& file) {
+  const auto values = [&](std::uint32_t tag, std::size_t count) {
+    std::vector<std::vector<double>> lists;
+    const auto found = header.frame_values.find(tag);
+    if (found == header.frame_values.end())
+      return lists;
+    for (std::string text : found->second) {
+      std::replace(text.begin(), text.end(), '\\', ' ');
+      text.erase(std::remove(text.begin(), text.end(), '\0'), text.end());
+      std::vector<double> numbers = numbers_of(path, "functional groups", text);
+      if (numbers.size() != count || !all_finite(numbers))
+        throw FileError(path.string(), "its functional groups hold '" + one_line(text) + "'; " +
+                                           std::to_string(count) + " finite numbers are needed");
+      lists.push_back(std::move(numbers));
+    }
+    return lists;
+  };
+  const auto axes = values(0x00200037, 6);
+  for (const std::vector<double>& a : axes) {
+    const glm::dmat2x3 own(a[0], a[1], a[2], a[3], a[4], a[5]);
+    if (file.axes &&
+        (glm::length(own[0] - (*file.axes)[0]) > 1e-2 || glm::length(own[1] - (*file.axes)[1]) > 1e-2))
+      throw FileError(path.string(),
+                      "its frames have different Image Orientations; such frames form no volume");
+    if (!(std::abs(glm::length(glm::cross(own[0], own[1])) - 1) < 0.1))
+      throw FileError(path.string(), "'Image Orientation (Patient)' holds no two perpendicular unit vectors");
+    file.axes = own;
+  }
+  const auto spacings = values(0x00280030, 2);
+  if (!spacings.empty() && spacings[0][0] > 0 && spacings[0][1] > 0)
+    file.pixel_spacing = glm::dvec2(spacings[0][1], spacings[0][0]); // rows first in the file
+  const auto positions = values(0x00200032, 3);
+  if (positions.size() == file.frames) {
+    for (const std::vector<double>& p : positions)
+      file.frame_positions.emplace_back(p[0], p[1], p[2]);
+  }
+}
+
+/// The pictures of one enhanced file in the stack's order.
+Volume read_enhanced(const DicomStack& stack, const Progress& progress) {
+  Volume all = read_one(stack.slices.front(), progress);
+  const std::size_t slice_bytes = voxel_bytes(all) / all.dims[2];
+  Volume volume = all;
+  volume.format = "DICOM";
+  volume.frames = stack.frames;
+  volume.dims[2] = stack.slices.size();
+  volume.voxels.assign(slice_bytes * stack.slices.size(), {});
+  for (std::size_t k = 0; k < stack.slices.size(); ++k) {
+    const std::size_t index = stack.slices[k].index;
+    if (index >= all.dims[2])
+      throw FileError(stack.slices[k].file.string(),
+                      "has fewer pictures than positions; the file is damaged");
+    std::copy_n(all.voxels.begin() + static_cast<std::ptrdiff_t>(index * slice_bytes), slice_bytes,
+                volume.voxels.begin() + static_cast<std::ptrdiff_t>(k * slice_bytes));
+  }
+  const DicomFile& first = stack.slices.front();
+  volume.origin = *first.position;
+  volume.direction[0] = glm::normalize((*first.axes)[0]);
+  volume.direction[1] = glm::normalize((*first.axes)[1]);
+  volume.direction[2] = stack.axis.value_or(glm::normalize(glm::cross((*first.axes)[0], (*first.axes)[1])));
+  volume.spacing.z = stack.spacing.value_or(1);
+  if (first.pixel_spacing) {
+    volume.spacing.x = first.pixel_spacing->x;
+    volume.spacing.y = first.pixel_spacing->y;
+  }
+  return volume;
+}
+
+} // namespace
+
 bool is_dicom(const fs::path& path) {
   const std::string head = head_of(path, 132);
   if (head.size() == 132 && head.compare(128, 4, "DICM") == 0)
@@ -238,14 +324,19 @@ DicomFile scan_dicom(const fs::path& path) {
     if (!(std::abs(glm::length(normal) - 1) < 0.1))
       throw FileError(path.string(), "'Image Orientation (Patient)' holds no two perpendicular unit vectors");
   }
+  if (file.frames > 1)
+    read_groups(path, header, file);
   check_pixels(path, header, file);
   return file;
 }
 
 std::vector<fs::path> dicom_files(const std::vector<fs::path>& candidates, const fs::path& named,
                                   const VolumeSource& source, const Progress& progress) {
+  const DicomStack stack = stack_for(candidates, named, source, progress);
+  if (stack.one_file)
+    return {stack.slices.front().file};
   std::vector<fs::path> files;
-  for (const DicomFile& slice : stack_for(candidates, named, source, progress).slices)
+  for (const DicomFile& slice : stack.slices)
     files.push_back(slice.file);
   return files;
 }
@@ -254,7 +345,15 @@ Volume read_dicom(const std::vector<fs::path>& candidates, const fs::path& named
                   const Progress& caller) {
   const Progress progress = saying_once(caller);
   const DicomStack stack = stack_for(candidates, named, source, progress);
+  if (stack.one_file)
+    return read_enhanced(stack, progress);
   const std::size_t count = stack.slices.size();
+  if (count == 1 && stack.slices.front().frames > 1)
+    report_warning(
+        progress,
+        source.file.string() +
+            ": its frames have no positions; they are slices in order at distance 1 (volume.spacing "
+            "gives another)");
   Volume volume = read_one(stack.slices.front(), progress);
   volume.format = "DICOM";
   volume.frames = stack.frames;

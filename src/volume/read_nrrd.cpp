@@ -1,18 +1,16 @@
+// NRRD is read here and not through ITK, which knows neither bzip2 nor frames beside a 3D space nor a space
+// without directions.
 #include "core/errors.h"
 #include "core/text.h"
-#include "volume/itk_reading.h"
-#include "volume/nrrd_header.h"
+#include "volume/file_checks.h"
+#include "volume/nrrd_data.h"
 #include "volume/readers.h"
 
-#include <fcntl.h>
-#include <itkNrrdImageIO.h>
-#include <unistd.h>
-#include <zlib.h>
-
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <memory>
+#include <cstring>
+#include <map>
+#include <optional>
 
 namespace slicelens {
 
@@ -21,96 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Axis = NrrdHeader::Axis;
-
-struct GzClose {
-  void operator()(gzFile_s* file) const { ::gzclose(file); }
-};
-
-/// The decoded bytes of raw or gzip data, over all data files in turn.
-class NrrdStream {
-public:
-  NrrdStream(const fs::path& path, const NrrdHeader& header, std::uintmax_t total)
-      : path_(path), header_(header),
-        files_(header.data_files.empty() ? std::vector<fs::path>{path} : header.data_files),
-        per_file_(total / files_.size()) {}
-
-  void skip(std::uintmax_t count) {
-    std::vector<std::byte> ignored(std::size_t{1} << 20);
-    while (count > 0) {
-      const auto piece = static_cast<std::size_t>(std::min<std::uintmax_t>(count, ignored.size()));
-      read(ignored.data(), piece);
-      count -= piece;
-    }
-  }
-
-  void read(std::byte* out, std::size_t count) {
-    while (count > 0) {
-      if (left_ == 0)
-        open_next();
-      const auto piece = static_cast<unsigned>(std::min<std::uintmax_t>({count, left_, 1u << 24}));
-      const int got = ::gzread(file_.get(), out, piece);
-      if (got <= 0)
-        throw FileError(path_.string(), "its data end " + std::to_string(count) +
-                                            " bytes too early; the file is truncated or damaged");
-      out += got;
-      count -= static_cast<std::size_t>(got);
-      left_ -= static_cast<std::uintmax_t>(got);
-    }
-  }
-
-  /// Compares the checksum behind the last byte of gzip data.
-  void finish() {
-    std::byte beyond{};
-    if (header_.encoding == Encoding::deflate && ::gzread(file_.get(), &beyond, 1) < 0)
-      throw FileError(path_.string(), "its compressed data are truncated or damaged (checksum)");
-  }
-
-private:
-  /// Opens the next data file behind its header and skipped lines and bytes.
-  void open_next() {
-    if (next_ == files_.size())
-      throw FileError(path_.string(), "its data files hold less than 'sizes' says");
-    const fs::path& file = files_[next_++];
-    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0)
-      throw FileError(file.string(), "cannot be opened");
-    off_t start = header_.data_files.empty() ? static_cast<off_t>(header_.bytes) : 0;
-    start = after_lines(descriptor, start);
-    if (header_.encoding == Encoding::raw && header_.byte_skip > 0)
-      start += static_cast<off_t>(header_.byte_skip);
-    if (header_.encoding == Encoding::raw && header_.byte_skip == -1)
-      start = std::max(start, ::lseek(descriptor, 0, SEEK_END) - static_cast<off_t>(per_file_));
-    ::lseek(descriptor, start, SEEK_SET);
-    // gzread passes bytes without gzip's mark through, and would unpack raw voxels that happen to begin with
-    // it; raw data of that kind are refused by the size check of what comes out.
-    file_.reset(::gzdopen(descriptor, "rb"));
-    if (!file_) {
-      ::close(descriptor);
-      throw FileError(file.string(), "cannot be opened");
-    }
-    left_ = per_file_;
-  }
-
-  off_t after_lines(int descriptor, off_t start) const {
-    for (long long line = 0; line < header_.line_skip; ++line) {
-      char c = 0;
-      do {
-        if (::pread(descriptor, &c, 1, start) != 1)
-          throw FileError(path_.string(), "has fewer lines than 'line skip' says");
-        ++start;
-      } while (c != '\n');
-    }
-    return start;
-  }
-
-  const fs::path& path_;
-  const NrrdHeader& header_;
-  std::vector<fs::path> files_;
-  std::uintmax_t per_file_;
-  std::size_t next_ = 0;
-  std::uintmax_t left_ = 0;
-  std::unique_ptr<gzFile_s, GzClose> file_;
-};
 
 ScalarType type_of(const NrrdHeader& header) {
   const std::string name = lower(header.fields.at("type"));
@@ -131,12 +39,31 @@ ScalarType type_of(const NrrdHeader& header) {
   }
 }
 
-std::vector<double> vector_of(const fs::path& path, const std::string& field, std::string text) {
+std::string field_of(const NrrdHeader& header, const char* name) {
+  const auto found = header.fields.find(name);
+  return found == header.fields.end() ? std::string() : found->second;
+}
+
+/// "(1,2,3)", with one to four numbers, as a vector of three; nothing for "none" and for a vector of NaNs,
+/// which says the same.
+std::optional<glm::dvec3> vector_of(const fs::path& path, const std::string& field, std::string text) {
+  if (text.empty() || text[0] != '(')
+    return std::nullopt;
   for (char& c : text) {
     if (c == '(' || c == ')' || c == ',')
       c = ' ';
   }
-  return numbers_of(path, field, text);
+  const std::vector<double> numbers = numbers_of(path, field, text);
+  if (std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isnan(number); }))
+    return std::nullopt;
+  glm::dvec3 vector(0);
+  for (std::size_t k = 0; k < numbers.size() && k < 3; ++k) {
+    if (!(std::abs(numbers[k]) < 1e30))
+      throw FileError(path.string(),
+                      "'" + field + "' holds " + number_text(numbers[k]) + "; finite numbers are needed");
+    vector[static_cast<int>(k)] = numbers[k];
+  }
+  return vector;
 }
 
 /// Turns a vector of the header's space into LPS.
@@ -149,101 +76,229 @@ glm::dvec3 lps_of(const std::string& space, glm::dvec3 v) {
   return v;
 }
 
-void place(const fs::path& path, const NrrdHeader& header, Volume& volume) {
-  const auto text = [&](const char* name) {
-    const auto found = header.fields.find(name);
-    return found == header.fields.end() ? std::string() : found->second;
-  };
-  const std::string space = lower(text("space"));
-  const std::string directions = text("space directions");
-  const std::string spacings = text("spacings");
-  std::vector<double> numbers =
-      directions.find('(') != std::string::npos
-          ? vector_of(path, "space directions", directions.substr(0, directions.rfind(')') + 1))
-          : std::vector<double>();
-  if (numbers.size() == 9) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const glm::dvec3 column = lps_of(space, {numbers[static_cast<std::size_t>(3 * axis)],
-                                               numbers[static_cast<std::size_t>(3 * axis + 1)],
-                                               numbers[static_cast<std::size_t>(3 * axis + 2)]});
-      volume.spacing[axis] = glm::length(column);
-      volume.direction[axis] = column / volume.spacing[axis];
-    }
-    const std::vector<double> origin = vector_of(path, "space origin", text("space origin"));
-    if (origin.size() == 3)
-      volume.origin = lps_of(space, {origin[0], origin[1], origin[2]});
-  } else if (!spacings.empty()) {
-    const std::vector<double> values = numbers_of(path, "spacings", spacings);
-    int axis = 0;
-    for (std::size_t k = 0; k < values.size() && k < header.axes.size(); ++k) {
-      if (header.axes[k] == Axis::space)
-        volume.spacing[axis++] = std::abs(values[k]);
-    }
+/// The words between quotation marks.
+std::vector<std::string> quoted_words(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t open = text.find('"'); open != std::string::npos; open = text.find('"', open)) {
+    const std::size_t close = text.find('"', open + 1);
+    if (close == std::string::npos)
+      break;
+    words.push_back(text.substr(open + 1, close - open - 1));
+    open = close + 1;
   }
-  const double determinant = glm::determinant(volume.direction);
-  if (!(std::abs(determinant) > 1e-6) || !std::isfinite(glm::length(volume.origin)))
-    throw FileError(path.string(),
-                    "'space directions' or 'space origin' hold no three independent directions");
+  return words;
 }
 
-/// Components first, space next, frames last: read here, because ITK knows neither frames beside a 3D space
-/// nor a space without directions. Only the frame that is asked for is kept.
-Volume read_directly(const fs::path& path, const NrrdHeader& header, std::size_t frame) {
-  if (header.encoding != Encoding::raw && header.encoding != Encoding::deflate)
-    throw FileError(path.string(), "frames in 'encoding: " + header.fields.at("encoding") +
-                                       "' are not supported; write it as raw or gzip");
-  Volume volume;
-  volume.format = "NRRD";
-  volume.type = type_of(header);
+std::optional<double> metres_of(const std::string& unit) {
+  static const std::map<std::string, double> units = {{"m", 1},
+                                                      {"meter", 1},
+                                                      {"metre", 1},
+                                                      {"meters", 1},
+                                                      {"metres", 1},
+                                                      {"dm", 0.1},
+                                                      {"cm", 1e-2},
+                                                      {"mm", 1e-3},
+                                                      {"millimeter", 1e-3},
+                                                      {"millimetre", 1e-3},
+                                                      {"millimeters", 1e-3},
+                                                      {"um", 1e-6},
+                                                      {"\xc2\xb5m", 1e-6},
+                                                      {"\xce\xbcm", 1e-6},
+                                                      {"micron", 1e-6},
+                                                      {"microns", 1e-6},
+                                                      {"micrometer", 1e-6},
+                                                      {"micrometers", 1e-6},
+                                                      {"nm", 1e-9},
+                                                      {"nanometer", 1e-9},
+                                                      {"nanometers", 1e-9}};
+  const auto found = units.find(lower(trimmed(unit)));
+  return found == units.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// Factors that bring axes with different units of length to the first one's. One unit for all is the data's
+/// own and stays.
+glm::dvec3 common_unit(const fs::path& path, const std::vector<std::string>& units,
+                       const Progress& progress) {
+  glm::dvec3 factors(1);
+  if (std::all_of(units.begin(), units.end(), [&](const std::string& unit) { return unit == units.front(); }))
+    return factors;
+  const std::string text = join(units, ", ");
+  for (std::size_t axis = 0; axis < units.size() && axis < 3; ++axis) {
+    const auto first = metres_of(units[0]);
+    const auto own = metres_of(units[axis]);
+    if (!first || !own) {
+      report_warning(progress, path.string() + ": its axes have different units (" + one_line(text) +
+                                   ") that are no known lengths; its numbers are used as they are");
+      return glm::dvec3(1);
+    }
+    factors[static_cast<int>(axis)] = *own / *first;
+  }
+  report_warning(progress, path.string() + ": its axes have different units (" + one_line(text) +
+                               "); all are turned to " + one_line(units[0]));
+  return factors;
+}
+
+/// Fills directions that the header does not give: perpendicular to the others.
+void complete(glm::dmat3& directions, int known) {
+  if (known == 1) {
+    const glm::dvec3 d = directions[0];
+    const glm::dvec3 other = std::abs(d.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    directions[1] = glm::normalize(other - d * glm::dot(d, other));
+  }
+  if (known < 3)
+    directions[2] = glm::cross(directions[0], directions[1]);
+}
+
+/// Place by `space directions` and `space origin`. Returns false when the header has no directions for its
+/// axes of space.
+bool place_in_space(const fs::path& path, const NrrdHeader& header, const std::string& space, Volume& volume,
+                    const Progress& progress) {
+  const std::vector<std::string> words = nrrd_vector_words(field_of(header, "space directions"));
+  const std::vector<std::string> units = quoted_words(field_of(header, "space units"));
+  const glm::dvec3 factors = units.empty() ? glm::dvec3(1) : common_unit(path, units, progress);
+  int known = 0;
+  glm::dmat3 directions(1);
+  for (std::size_t axis = 0; axis < header.axes.size() && known < 3; ++axis) {
+    if (header.axes[axis] != Axis::space)
+      continue;
+    const auto vector = axis < words.size() ? vector_of(path, "space directions", words[axis]) : std::nullopt;
+    if (!vector)
+      return false;
+    const glm::dvec3 column = lps_of(space, *vector * factors);
+    const double length = glm::length(column);
+    if (!(length > 0))
+      throw FileError(path.string(), "'space directions' holds a vector without length");
+    volume.spacing[known] = length;
+    directions[known++] = column / length;
+  }
+  complete(directions, known);
+  volume.direction = directions;
+  if (const auto origin = vector_of(path, "space origin", field_of(header, "space origin")))
+    volume.origin = lps_of(space, *origin * factors);
+  return true;
+}
+
+/// Place by `spacings` (negative: the axis runs the other way) and, without a space, `axis mins`.
+void place_by_axes(const fs::path& path, const NrrdHeader& header, const std::string& space, Volume& volume,
+                   const Progress& progress) {
+  const std::vector<double> spacings = numbers_of(path, "spacings", field_of(header, "spacings"));
+  const std::vector<double> mins = numbers_of(path, "axis mins", field_of(header, "axis mins"));
+  const std::vector<std::string> centers =
+      words_of(lower(field_of(header, "centers") + " " + field_of(header, "centerings")));
+  const std::vector<std::string> units = quoted_words(field_of(header, "units"));
+  std::vector<std::string> space_units;
+  std::vector<std::size_t> axes; // of space
+  for (std::size_t axis = 0; axis < header.axes.size(); ++axis) {
+    if (header.axes[axis] == Axis::space) {
+      axes.push_back(axis);
+      space_units.push_back(axis < units.size() ? units[axis] : "");
+    }
+  }
+  const glm::dvec3 factors = units.empty() ? glm::dvec3(1) : common_unit(path, space_units, progress);
+  const auto origin = vector_of(path, "space origin", field_of(header, "space origin"));
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const int column = static_cast<int>(k);
+    glm::dvec3 direction(0);
+    direction[column] = 1;
+    const double spacing = axes[k] < spacings.size() ? spacings[axes[k]] * factors[column] : 1;
+    volume.spacing[column] = std::abs(spacing);
+    volume.direction[column] = lps_of(space, spacing < 0 ? -direction : direction);
+    if (!origin && space.empty() && axes[k] < mins.size() && std::isfinite(mins[axes[k]])) {
+      const bool node = axes[k] < centers.size() && centers[axes[k]] == "node";
+      volume.origin[column] = mins[axes[k]] * factors[column] + (node ? 0 : spacing / 2);
+    }
+  }
+  if (origin)
+    volume.origin = lps_of(space, *origin);
+}
+
+void place(const fs::path& path, const NrrdHeader& header, Volume& volume, const Progress& progress) {
+  const std::string space = lower(field_of(header, "space"));
+  if (!place_in_space(path, header, space, volume, progress))
+    place_by_axes(path, header, space, volume, progress);
+  if (!(std::abs(glm::determinant(volume.direction)) > 1e-6))
+    throw FileError(path.string(), "'space directions' hold no three independent directions");
+}
+
+/// Which scalars of the file make up the wanted frame: their distance from voxel to voxel, component to
+/// component and frame to frame, in scalars.
+struct Layout {
+  std::array<std::size_t, 3> voxel{0, 0, 0};
+  std::size_t component = 0;
+  std::size_t frame = 0;
+  std::size_t total = 1; ///< scalars in the file
+};
+
+Layout layout_of(const fs::path& path, const NrrdHeader& header, Volume& volume) {
+  Layout layout;
   std::size_t space_axis = 0;
   for (std::size_t axis = 0; axis < header.axes.size(); ++axis) {
     const auto size = static_cast<std::size_t>(header.sizes[axis]);
-    if (header.axes[axis] == Axis::space)
+    if (header.axes[axis] == Axis::space) {
+      layout.voxel[space_axis] = layout.total;
       volume.dims[space_axis++] = size;
-    else if (header.axes[axis] == Axis::frame)
+    } else if (header.axes[axis] == Axis::frame) {
+      layout.frame = layout.total;
       volume.frames = size;
-    else if (axis == 0)
+    } else {
+      layout.component = layout.total;
       volume.components = static_cast<int>(size);
-    else
-      throw FileError(path.string(), "has its components on axis " + std::to_string(axis) +
-                                         "; beside frames they must be the first axis");
+    }
+    layout.total = checked_product(layout.total, size, path.string());
   }
-  if (frame >= volume.frames)
-    throw UsageError("volume.frame is " + std::to_string(frame) + " but " + path.string() + " has " +
-                     std::to_string(volume.frames) + " frame(s), counted from 0");
-  place(path, header, volume);
-  const std::size_t bytes = voxel_bytes(volume);
-  check_memory(path, bytes);
-  NrrdStream stream(path, header, checked_product(bytes, volume.frames, path.string()));
-  stream.skip(static_cast<std::uintmax_t>(frame) * bytes);
-  volume.voxels.resize(bytes);
-  stream.read(volume.voxels.data(), bytes);
-  if (frame + 1 == volume.frames)
-    stream.finish();
-  const bool big = lower(header.fields.count("endian") > 0 ? header.fields.at("endian") : "") == "big";
-  if (header.scalar_bytes > 1 && big != (std::endian::native == std::endian::big))
-    swap_bytes(volume.voxels, size_of(volume.type));
-  return volume;
+  return layout;
+}
+
+/// Components first, then space, then frames: a frame is one piece of the file.
+bool is_contiguous(const Layout& layout, const Volume& volume) {
+  const bool components_first = volume.components == 1 || layout.component == 1;
+  const bool frames_last = volume.frames == 1 || layout.frame * volume.frames == layout.total;
+  return components_first && frames_last;
+}
+
+std::vector<std::byte> gathered(const std::vector<std::byte>& all, const Layout& layout, const Volume& volume,
+                                std::size_t frame) {
+  const std::size_t scalar = size_of(volume.type);
+  std::vector<std::byte> voxels(voxel_bytes(volume));
+  std::byte* out = voxels.data();
+  for (std::size_t k = 0; k < volume.dims[2]; ++k) {
+    for (std::size_t j = 0; j < volume.dims[1]; ++j) {
+      for (std::size_t i = 0; i < volume.dims[0]; ++i) {
+        for (std::size_t c = 0; c < static_cast<std::size_t>(volume.components); ++c) {
+          const std::size_t from = i * layout.voxel[0] + j * layout.voxel[1] + k * layout.voxel[2] +
+                                   c * layout.component + frame * layout.frame;
+          std::memcpy(out, all.data() + from * scalar, scalar);
+          out += scalar;
+        }
+      }
+    }
+  }
+  return voxels;
 }
 
 } // namespace
 
 Volume read_nrrd(const fs::path& path, std::size_t frame, const Progress& progress) {
   const NrrdHeader header = parse_nrrd(path);
-  const bool list_first = header.axes.front() == Axis::frame && header.axes.size() > 1;
-  const bool has_frames = header.axes.back() == Axis::frame;
-  const bool space_only = header.fields.count("space") > 0 && header.fields.count("space directions") == 0;
-  if (has_frames || (space_only && !list_first))
-    return read_directly(path, header, frame);
   Volume volume;
-  with_libraries(path, progress, [&] {
-    const auto io = itk::NrrdImageIO::New();
-    io->SetFileName(path.string());
-    io->ReadImageInformation();
-    volume = header_of(*io, path, list_first);
-    volume.format = "NRRD";
-    read_frame(*io, path, frame, volume, list_first);
-  });
+  volume.format = "NRRD";
+  volume.type = type_of(header);
+  const Layout layout = layout_of(path, header, volume);
+  if (frame >= volume.frames)
+    throw UsageError("volume.frame is " + std::to_string(frame) + " but " + path.string() + " has " +
+                     std::to_string(volume.frames) + " frame(s), counted from 0");
+  place(path, header, volume, progress);
+  const std::size_t bytes = voxel_bytes(volume);
+  const std::size_t total = checked_product(layout.total, size_of(volume.type), path.string());
+  const bool whole =
+      !is_contiguous(layout, volume) || header.encoding == Encoding::text || header.encoding == Encoding::hex;
+  check_memory(path, whole ? total : bytes);
+  if (is_contiguous(layout, volume)) {
+    volume.voxels = read_nrrd_data(path, header, volume.type, {frame * bytes, bytes, total}, progress);
+  } else {
+    volume.voxels = gathered(read_nrrd_data(path, header, volume.type, {0, total, total}, progress), layout,
+                             volume, frame);
+  }
   return volume;
 }
 

@@ -43,6 +43,17 @@ NameClaim claim_of_name(const fs::path& path) {
   return claim;
 }
 
+/// What to do about a file whose size or type is not known: a header of the same name beside it knows both.
+std::string remedy_for(const fs::path& path) {
+  for (const char* extension : {".nhdr", ".mhd", ".mha"}) {
+    std::error_code error;
+    fs::path header = path;
+    if (fs::exists(header.replace_extension(extension), error))
+      return "; name " + header.filename().string() + " beside it, which describes it";
+  }
+  return remedy;
+}
+
 } // namespace
 
 void swap_bytes(std::vector<std::byte>& scalars, std::size_t size) {
@@ -58,9 +69,9 @@ Volume read_raw(const VolumeSource& source, const Progress&) {
   const std::uintmax_t found = require_file(path);
   const NameClaim claim = claim_of_name(path);
   if (!source.size && !claim.size)
-    throw FileError(path.string(), std::string("is headerless and its size is not known") + remedy);
+    throw FileError(path.string(), "is headerless and its size is not known" + remedy_for(path));
   if (!source.type && !claim.type)
-    throw FileError(path.string(), std::string("is headerless and its scalar type is not known") + remedy);
+    throw FileError(path.string(), "is headerless and its scalar type is not known" + remedy_for(path));
 
   Volume volume;
   volume.type = source.type ? *source.type : *claim.type;

@@ -176,6 +176,41 @@ glm::dvec4 evaluate(const TransferFunction& transfer, double value) {
   return rgba_of(a) * (1 - f) + rgba_of(*right) * f;
 }
 
+TransferFunction windowed(TransferFunction transfer, std::optional<double> window,
+                          std::optional<double> level) {
+  if (!window && !level)
+    return transfer;
+  validate(transfer);
+  const double first = transfer.points.front().value;
+  const double last = transfer.points.back().value;
+  if (window && !(*window > 0))
+    throw UsageError("transfer.window is " + number_text(*window) + "; it must be above 0");
+  if (window && first == last) {
+    throw UsageError("transfer.window: the transfer function has the single value " + number_text(first) +
+                     " and no width to change; leave it out, transfer.level moves the value");
+  }
+  const double width = window.value_or(last - first);
+  const double middle = level.value_or(first / 2 + last / 2);
+  const double low = middle - width / 2;
+  const double high = middle + width / 2;
+  double before = first;
+  double after = low;
+  for (TransferPoint& point : transfer.points) {
+    // Rounding must not swap points, so the sum rises with the share and ends where the window does.
+    const double share = first < last ? (point.value - first) / (last - first) : 0;
+    const double value = share < 1 ? std::min(low + share * width, high) : high;
+    if (point.value > before && !(value > after)) {
+      throw UsageError("transfer.window " + number_text(width) + " about " + number_text(middle) +
+                       " is so narrow that points of the transfer function fall together; make it wider");
+    }
+    before = point.value;
+    after = value;
+    point.value = value;
+  }
+  validate(transfer);
+  return transfer;
+}
+
 TransferFunction constant_transfer(const glm::dvec4& rgba) {
   return {{point_of(0, rgba)}, std::nullopt, "constant"};
 }

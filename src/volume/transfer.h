@@ -45,6 +45,15 @@ void validate(const TransferFunction& transfer);
 /// (0,0,0,0): it shows nothing. `transfer` must be valid.
 glm::dvec4 evaluate(const TransferFunction& transfer, double value);
 
+/// The function stretched onto another range of values: its own one, from the first point to the last, is
+/// mapped linearly onto [level − window/2, level + window/2] (data units; level is the centre, window the
+/// width, as in DICOM PS3.3 C.11.2.1.2 and 3D Slicer). What is not given stays the function's own. Opacities
+/// keep their reference length. Throws UsageError naming the key where window is not > 0, where the
+/// function's points all have one value, so that no width can be given to them (level moves them), and where
+/// the points fall together.
+TransferFunction windowed(TransferFunction transfer, std::optional<double> window,
+                          std::optional<double> level);
+
 /// A transfer function of constant colour and opacity.
 TransferFunction constant_transfer(const glm::dvec4& rgba);
 
@@ -91,7 +100,8 @@ TransferTable make_table(const TransferFunction& transfer, std::size_t texels = 
 struct PresetInfo {
   std::string name;
   std::string description;
-  bool relative = false; ///< true: stretched over the data's range; false: absolute, in HU
+  bool relative = false;   ///< true: stretched over the data's range; false: absolute, in `unit`
+  std::string unit = "HU"; ///< of absolute ones
 };
 
 /// The presets by the names that 3D Slicer's users know, with this project's own values, and cast-and-steel,

@@ -6,7 +6,10 @@
 // it (1 − 0.5⁴ = 0.94).
 #include "core/errors.h"
 #include "core/text.h"
+#include "volume/phantom.h"
 #include "volume/transfer.h"
+
+#include <algorithm>
 
 namespace slicelens {
 
@@ -212,10 +215,91 @@ std::vector<Preset> relative_presets() {
   };
 }
 
+/// The colours of the frog's organs by label, and how opaque they are shown.
+struct OrganColor {
+  double r, g, b, opacity;
+};
+
+constexpr OrganColor kOrganColors[] = {
+    {0, 0, 0, 0},          // air
+    {.42, .60, .26, .060}, // skin
+    {.78, .50, .40, .002}, // muscle
+    {.95, .92, .82, .80},  // skeleton
+    {.96, .96, .90, .70},  // eye
+    {.10, .10, .12, .95},  // lens
+    {.95, .70, .72, .80},  // brain
+    {.98, .90, .35, .80},  // nerves
+    {.62, .80, .95, .35},  // lung
+    {.85, .10, .12, .90},  // heart
+    {.95, .22, .18, .90},  // vessels
+    {.55, .22, .14, .70},  // liver
+    {.20, .65, .25, .90},  // gall bladder
+    {.93, .62, .42, .70},  // stomach
+    {.98, .74, .58, .80},  // small intestine
+    {.72, .45, .35, .80},  // large intestine
+    {.55, .10, .30, .90},  // spleen
+    {.70, .20, .22, .90},  // kidney
+    {.98, .80, .25, .85},  // fat body
+    {.90, .88, .45, .60},  // bladder
+};
+
+TransferPoint organ_point(double value, const OrganColor& color, double opacity) {
+  return {value, color.r, color.g, color.b, opacity};
+}
+
+/// A step half-way between two labels.
+std::vector<TransferPoint> label_points() {
+  std::vector<TransferPoint> points;
+  for (const OrganInfo& organ : organs()) {
+    const OrganColor& color = kOrganColors[organ.label];
+    if (organ.label > 0)
+      points.push_back(organ_point(organ.label - 0.5, color, color.opacity));
+    if (organ.label + 1U < organs().size())
+      points.push_back(organ_point(organ.label + 0.5, color, color.opacity));
+  }
+  return points;
+}
+
+std::vector<Preset> phantom_presets() {
+  return {
+      {{"organs", "the frog's skeleton and organs in warm colours inside a translucent skin", false,
+        "values of phantom organs"},
+       {{3, .5, .7, .4, 0},
+        {14, .45, .65, .32, .03},
+        {30, .4, .6, .26, .055},
+        {40, .55, .4, .28, .002},
+        {52, .7, .4, .25, .004},
+        {62, .96, .78, .34, .07},
+        {80, .92, .8, .55, .07},
+        {95, .8, .45, .4, .05},
+        {110, .62, .24, .15, .12},
+        {130, .66, .16, .16, .16},
+        {142, .86, .14, .12, .24},
+        {155, .94, .24, .18, .24},
+        {166, .95, .62, .44, .14},
+        {190, .98, .8, .64, .2},
+        {204, .97, .9, .78, .5},
+        {226, 1, .97, .88, .95}}},
+      {{"organs-labels", "a colour for each organ of the frog, by its label", false,
+        "labels of phantom organs-labels"},
+       label_points()},
+      {{"colon", "the wall seen from inside and outside, translucent; polyps red", false,
+        "HU of phantom colon"},
+       {{-960, .75, .60, .58, 0},
+        {-700, .85, .68, .62, .12},
+        {-400, .95, .74, .66, .20},
+        {-200, .95, .70, .62, .06},
+        {-110, .95, .65, .58, 0},
+        {50, .90, .50, .40, 0},
+        {70, .85, .12, .10, .6},
+        {90, .85, .10, .08, .9}}},
+  };
+}
+
 const std::vector<Preset>& all_presets() {
   static const std::vector<Preset> list = [] {
     std::vector<Preset> all = bone_presets();
-    for (auto* more : {&soft_tissue_presets, &relative_presets}) {
+    for (auto* more : {&soft_tissue_presets, &relative_presets, &phantom_presets}) {
       for (Preset& entry : more())
         all.push_back(std::move(entry));
     }

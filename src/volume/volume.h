@@ -25,6 +25,12 @@ std::string name_of(ScalarType type);
 /// double …). Throws UsageError naming the nearest one.
 ScalarType scalar_type_from_name(const std::string& name);
 
+/// Colours of voxels, in the order of the voxels.
+struct VoxelColors {
+  std::vector<std::uint8_t> rgba; ///< straight R G B A of each voxel, 255 for 1; empty: there are none
+  bool has_opacity = false;       ///< A is the data's own opacity per reference length; else it says nothing
+};
+
 /// A regular grid of samples. Voxel (i,j,k) has its centre at origin + direction·(spacing ∘ (i,j,k)) in world
 /// space (LPS, the data's own unit of length) and its component c is scalar number ((k·ny + j)·nx +
 /// i)·components + c of `voxels`, in the machine's byte order.
@@ -42,6 +48,7 @@ struct Volume {
   std::size_t non_finite = 0;    ///< scalars that are NaN or infinite
   std::size_t frames = 1;        ///< frames in the file this one was chosen from
   std::string format;            ///< "NRRD", "MetaImage", "NIfTI", "DICOM", "phantom" …
+  VoxelColors colors;            ///< of a volume of colours, whose voxels are luminances (with_luminance)
 };
 
 /// Number of voxels. Throws LimitError on overflow.
@@ -59,6 +66,14 @@ double value_at(const Volume& volume, std::size_t i, std::size_t j, std::size_t 
 /// Computes min, max, mean and non_finite from the voxels in one pass, in parallel. Without any finite value
 /// min, max and mean are 0.
 void update_statistics(Volume& volume);
+
+/// Whether voxels of 3 or 4 components hold colours: RGB or RGBA in whole numbers without a sign, of 8 or 16
+/// bits. Other vectors are data.
+bool holds_colors(const Volume& volume);
+
+/// A volume that holds_colors as one of luminances, 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709-6 §3, of the
+/// values as they are), rounded to its type, with the colours beside them in 8 bits.
+Volume with_luminance(const Volume& volume);
 
 /// The volume's box in world space: faces half a voxel outside the outer voxel centres.
 Box box_of(const Volume& volume);

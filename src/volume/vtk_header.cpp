@@ -15,19 +15,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::uintmax_t scalar_bytes_of(const fs::path& path, const std::string& type) {
-  static const std::map<std::string, std::uintmax_t> sizes = {
-      {"unsigned_char", 1}, {"char", 1},   {"unsigned_short", 2}, {"short", 2},
-      {"unsigned_int", 4},  {"int", 4},    {"unsigned_long", 8},  {"long", 8},
-      {"float", 4},         {"double", 8}, {"vtktypeint64", 8},   {"vtktypeuint64", 8}};
-  const auto found = sizes.find(lower(type));
-  if (found == sizes.end())
-    throw FileError(path.string(), "'SCALARS' has the type '" + one_line(type) +
+ScalarType type_of(const fs::path& path, const std::string& name) {
+  static const std::map<std::string, ScalarType> types = {
+      {"unsigned_char", ScalarType::u8},   {"char", ScalarType::i8},
+      {"unsigned_short", ScalarType::u16}, {"short", ScalarType::i16},
+      {"unsigned_int", ScalarType::u32},   {"int", ScalarType::i32},
+      {"unsigned_long", ScalarType::u64},  {"long", ScalarType::i64},
+      {"float", ScalarType::f32},          {"double", ScalarType::f64},
+      {"vtktypeint64", ScalarType::i64},   {"vtktypeuint64", ScalarType::u64}};
+  const auto found = types.find(lower(name));
+  if (found == types.end())
+    throw FileError(path.string(), "'SCALARS' has the type '" + one_line(name) +
                                        "', which is not supported; unsigned_char to double are");
   return found->second;
 }
 
-void check_distances(const fs::path& path, const std::string& field, const std::string& rest) {
+glm::dvec3 distances_of(const fs::path& path, const std::string& field, const std::string& rest) {
   const std::vector<double> values = numbers_of(path, field, rest);
   bool good = values.size() == 3;
   for (const double value : values)
@@ -35,6 +38,7 @@ void check_distances(const fs::path& path, const std::string& field, const std::
   if (!good)
     throw FileError(path.string(), "'" + field + " " + one_line(rest) + "' needs three finite numbers" +
                                        (field == "ORIGIN" ? "" : " above 0"));
+  return {values[0], values[1], values[2]};
 }
 
 /// Where the next line begins; the whole text's length at its end.
@@ -45,7 +49,7 @@ std::uintmax_t offset_after(std::istringstream& in) {
 
 } // namespace
 
-HeaderScan scan_vtk(const fs::path& path) {
+HeaderScan scan_vtk(const fs::path& path, Volume& volume) {
   const std::uintmax_t file_bytes = require_file(path);
   std::istringstream in(head_of(path, 1 << 16));
   std::string line;
@@ -70,9 +74,9 @@ HeaderScan scan_vtk(const fs::path& path) {
     if (word == "dimensions")
       sizes = integers_of(path, "DIMENSIONS", rest);
     else if (word == "spacing" || word == "aspect_ratio")
-      check_distances(path, "SPACING", rest);
+      volume.spacing = distances_of(path, "SPACING", rest);
     else if (word == "origin")
-      check_distances(path, "ORIGIN", rest);
+      volume.origin = distances_of(path, "ORIGIN", rest);
     else if (word == "cell_data")
       throw FileError(path.string(), "holds cell data; write the values as point data");
     else if (word == "vectors" || word == "tensors" || word == "field" || word == "color_scalars" ||
@@ -81,13 +85,15 @@ HeaderScan scan_vtk(const fs::path& path) {
     else if (word == "scalars") {
       if (sizes.size() != 3 || words.size() < 3)
         throw FileError(path.string(), "needs 'DIMENSIONS nx ny nz' before 'SCALARS name type'");
-      const std::uintmax_t scalar = scalar_bytes_of(path, words[2]);
+      volume.type = type_of(path, words[2]);
+      const std::uintmax_t scalar = size_of(volume.type);
       std::vector<long long> all_sizes = sizes;
       if (words.size() > 3) {
         const auto components = integers_of(path, "SCALARS", words[3]);
         if (components[0] < 1 || components[0] > 4)
           throw FileError(path.string(), "'SCALARS' has " + words[3] + " components; 1 to 4 are supported");
         all_sizes.push_back(components[0]);
+        volume.components = static_cast<int>(components[0]);
       }
       HeaderScan scan;
       scan.offset = offset_after(in);
@@ -96,8 +102,10 @@ HeaderScan scan_vtk(const fs::path& path) {
       scan.stored = file_bytes - std::min(file_bytes, scan.offset);
       scan.encoding = format == "ascii" ? Encoding::text : Encoding::raw;
       scan.big_endian = true; // always, in this format
-      check_claim(path, "DIMENSIONS", claimed_bytes(path, "DIMENSIONS", all_sizes, scalar), scan.stored,
-                  scan.encoding, scalar);
+      scan.claimed = claimed_bytes(path, "DIMENSIONS", all_sizes, scalar);
+      check_claim(path, "DIMENSIONS", scan.claimed, scan.stored, scan.encoding, scalar);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        volume.dims[axis] = static_cast<std::size_t>(sizes[axis]);
       return scan;
     }
   }

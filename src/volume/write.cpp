@@ -6,6 +6,7 @@
 #include "volume/file_checks.h"
 #include "volume/header_scan.h"
 #include "volume/itk_reading.h"
+#include "volume/nrrd_header.h"
 
 #include <itkMetaImageIO.h>
 #include <itkNrrdImageIO.h>
@@ -84,7 +85,7 @@ void write_with_itk(const Volume& volume, const fs::path& file, const fs::path& 
   if (meta)
     scan_meta(file);
   else
-    scan_nrrd(file);
+    parse_nrrd(file);
 }
 
 [[noreturn]] void throw_unwritten(const fs::path& path, const std::string& why) {
@@ -116,7 +117,7 @@ void write_pair(const Volume& volume, const fs::path& path, bool meta, bool comp
         throw FileError(path.string(), "cannot be written: " + error.message());
       const fs::path header = made / path.filename();
       write_with_itk(volume, header, path, meta, compress);
-      const auto files = meta ? scan_meta(header).data_files : scan_nrrd(header).data_files;
+      const auto files = meta ? scan_meta(header).data_files : parse_nrrd(header).data_files;
       if (files.size() != 1)
         throw_unwritten(path, "no data file");
       data = files.front().filename();

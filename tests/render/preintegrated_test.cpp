@@ -228,6 +228,8 @@ TEST_CASE("what pre-integration cannot do is refused by name") {
   CHECK_THAT(refusal(R"("pipeline":"fixed-function")"), Contains("render.classification"));
   CHECK_THAT(refusal(R"("tiles":[2,1,1])"), Contains("render.tiles"));
   CHECK_THAT(refusal(R"("footprint":"mip")"), Contains("render.footprint"));
+  CHECK_THAT(refusal(R"("jitter":0.5)"), Contains("render.jitter"));
+  CHECK_THAT(refusal(R"("modulate_by_gradient":2)"), Contains("render.modulate_by_gradient"));
   CHECK_THAT(refusal(R"("levels":2)"), Contains("render.levels"));
   CHECK_THAT(refusal(R"("transfer_texture":"rgba8")"), Contains("render.transfer_texture"));
   CHECK_THAT(refusal(R"("size":[8,8])", R"(,"volumes":[{"phantom":"head"},{"phantom":"head"}])"),

@@ -140,6 +140,8 @@ TEST_CASE("what shells cannot do is refused by name") {
   CHECK_THAT(refusal(R"("pipeline":"rays")"), Contains("pipeline 'rays'"));
   CHECK_THAT(refusal(R"("classification":"pre","opacity_correction":"frame")"),
              Contains("render.classification"));
+  CHECK_THAT(refusal(R"("jitter":0.5)"), Contains("render.jitter"));
+  CHECK_THAT(refusal(R"("mode":"iso")"), Contains("mode 'iso'"));
   CHECK_THAT(refusal(R"("tiles":[2,1,1])"), Contains("render.tiles"));
   CHECK_THAT(refusal(R"("size":[8,8])", R"(,"planes":[{}])"), Contains("planes"));
   CHECK_THAT(refusal(R"("size":[8,8])", R"(,"overlay":{"stack":60})"), Contains("overlay.stack"));

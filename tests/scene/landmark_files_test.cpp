@@ -96,6 +96,7 @@ TEST_CASE("broken files of landmarks are refused with the place") {
   CHECK_THROWS_WITH(pairs("a.csv", "1,2,3,4,5,nan\n"), Catch::Contains("line 1"));
   CHECK_THROWS_WITH(pairs("a.csv", "1,2,3,4,5,6\nx,y,z,x,y,z\n"), Catch::Contains("line 2"));
   CHECK_THROWS_AS(pairs("a.json", "[[[1,2,3],[4,5,6]]"), FileError);
+  CHECK_THROWS_AS(pairs("a.json", "[[[1,2,3],[4,5,1e999]]]"), FileError); // beyond doubles
   CHECK_THROWS_WITH(pairs("a.json", "{}"), Catch::Contains("no list"));
   CHECK_THROWS_WITH(pairs("a.json", "[[[1,2,3]]]"), Catch::Contains("pair 1"));
   CHECK_THROWS_WITH(pairs("a.json", "[[[1,2,3],[4,5]]]"), Catch::Contains("pair 1's target"));

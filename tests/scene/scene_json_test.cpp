@@ -1,6 +1,8 @@
 #include "catch.h"
 #include "core/errors.h"
+#include "scene/load.h"
 #include "scene/scene_json.h"
+#include "volume/phantom.h"
 
 using namespace slicelens;
 
@@ -68,7 +70,7 @@ TEST_CASE("wrong types and values are refused with what would be right") {
   CHECK(contains(refusal(R"({"render":{"spacing":0}})"),
                  "render.spacing: 0 is not valid; give a number above 0"));
   CHECK(contains(refusal(R"({"render":{"spacing":"1"}})"), "give a number"));
-  CHECK(contains(refusal(R"({"render":{"mode":"drv"}})"), "give one of dvr, mip, xray"));
+  CHECK(contains(refusal(R"({"render":{"mode":"drv"}})"), "give one of dvr, mip, minip, average, xray, iso"));
   CHECK(contains(refusal(R"({"render":{"size":[64]}})"), "list of 2"));
   CHECK(contains(refusal(R"({"render":{"size":[-1,5]}})"), "render.size[0]"));
   CHECK(contains(refusal(R"({"render":{"size":[0,5]}})"), "render.size"));
@@ -149,6 +151,16 @@ TEST_CASE("changes by --set reach every key and one alternative removes the othe
   CHECK(contains(refusal("{}", {parse_assignment("clip[3].point=[0,0,0]")}), "clip"));
 }
 
+TEST_CASE("bytes that are no UTF-8 and numbers beyond doubles are refused or kept as text, never worse") {
+  CHECK(contains(refusal("{}", {{"render.spacing", "0\xdf.6"}}), "render.spacing"));
+  CHECK(contains(refusal("{\"render\":{\"spacing\":1e999}}"), "beyond the range"));
+  CHECK(contains(refusal("{}", {{"render.spacing", "1e999"}}), "render.spacing"));
+  // A file's name need not be UTF-8; the scene's text has U+FFFD in its place.
+  const Scene scene = scene_from_json("{}", "s.json", {{"volume.file", "a\xff.nrrd"}});
+  CHECK(*scene.volume.file == "a\xff.nrrd");
+  CHECK(contains(scene_to_json(scene), "\\ufffd"));
+}
+
 TEST_CASE("every key has a help text") {
   const auto keys = list_scene_keys();
   CHECK(keys.size() > 40);
@@ -178,4 +190,38 @@ TEST_CASE("a warp is one object or a list, and chooses its paper's pipeline") {
   CHECK(contains(refusal(R"({"warp":{"kind":"lamr"}})"), "lamar"));
   CHECK(contains(refusal(R"({"warp":{"kind":"lamar","zom":3}})"), "did you mean warp.zoom?"));
   CHECK(contains(refusal(R"({"warp":{"kind":"lamar","radial_segments":"many"}})"), "adaptive"));
+}
+
+TEST_CASE("window and level stretch every kind of transfer function, also of one of several volumes") {
+  const Scene scene = scene_from_json(
+      R"({"volumes":[{"phantom":"ball","size":[8,8,8],"transfer":{"preset":"grey-ramp","window":10,"level":100}},
+                     {"phantom":"ball","size":[8,8,8],"transfer":{"points":[[0,0,0,0,0],[4,1,1,1,1]],"level":-6}},
+                     {"phantom":"ball","size":[8,8,8],"transfer":{"window":2}}]})",
+      "s");
+  const LoadedVolume preset = load_volume_of(scene, 0, {}, {});
+  CHECK(preset.transfer.points.front().value == 95);
+  CHECK(preset.transfer.points.back().value == 105);
+  const LoadedVolume points = load_volume_of(scene, 1, {}, {});
+  CHECK(points.transfer.points.front().value == -8);
+  CHECK(points.transfer.points.back().value == -4);
+  Scene plain = scene;
+  plain.others[1].transfer.window.reset();
+  const LoadedVolume own = load_volume_of(plain, 2, {}, {});
+  const LoadedVolume narrow = load_volume_of(scene, 2, {}, {});
+  const auto middle = [](const LoadedVolume& loaded) {
+    return (loaded.transfer.points.front().value + loaded.transfer.points.back().value) / 2;
+  };
+  CHECK(narrow.transfer.points.back().value - narrow.transfer.points.front().value == Approx(2));
+  CHECK(middle(narrow) == Approx(middle(own)));
+  CHECK_THROWS_AS(scene_from_json(R"({"transfer":{"window":0}})", "s"), UsageError);
+  CHECK_THROWS_AS(scene_from_json(R"({"transfer":{"window":-5}})", "s"), UsageError);
+}
+
+TEST_CASE("window and level stretch the automatic function of a volume") {
+  Scene scene = scene_from_json(R"({"volume":{"file":"x.nrrd"},"transfer":{"window":50,"level":7}})", "s");
+  const Volume volume = make_phantom("head", {16, 16, 16}, {});
+  const TransferFunction transfer = transfer_of(scene, volume);
+  CHECK(transfer.name == "automatic");
+  CHECK(transfer.points.front().value == -18);
+  CHECK(transfer.points.back().value == 32);
 }

@@ -12,7 +12,7 @@ std::string element(std::uint16_t group, std::uint16_t number, const std::string
   if (value.size() % 2 == 1)
     value += vr == "UI" || vr == "OW" ? '\0' : ' ';
   std::string bytes = bytes_of(std::vector<std::uint16_t>{group, number}) + vr;
-  if (vr == "OB" || vr == "OW")
+  if (vr == "OB" || vr == "OW" || vr == "SQ")
     bytes +=
         std::string(2, '\0') + bytes_of(std::vector<std::uint32_t>{static_cast<std::uint32_t>(value.size())});
   else
@@ -53,6 +53,37 @@ std::string dicom(const Slice& s) {
          us(0x28, 0x100, 16) + us(0x28, 0x101, 16) + us(0x28, 0x102, 15) + us(0x28, 0x103, 1) +
          element(0x28, 0x1052, "DS", s.intercept) + element(0x28, 0x1053, "DS", s.slope) +
          element(0x7fe0, 0x10, "OW", bytes_of(s.pixels));
+}
+
+std::string item(const std::string& inside) {
+  return bytes_of(std::vector<std::uint16_t>{0xfffe, 0xe000}) +
+         bytes_of(std::vector<std::uint32_t>{static_cast<std::uint32_t>(inside.size())}) + inside;
+}
+
+/// An enhanced MR file (PS3.3 C.7.6.16) whose frame k holds 100 k + pixel: pixel spacing for all, a position
+/// and orientation for each frame.
+std::string enhanced(const std::vector<std::string>& positions, const std::vector<std::string>& axes) {
+  std::vector<std::int16_t> pixels;
+  std::string frames;
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    for (int pixel = 0; pixel < 6; ++pixel)
+      pixels.push_back(static_cast<std::int16_t>(100 * static_cast<int>(k) + pixel));
+    frames += item(element(0x20, 0x9113, "SQ", item(element(0x20, 0x32, "DS", positions[k]))) +
+                   element(0x20, 0x9116, "SQ", item(element(0x20, 0x37, "DS", axes[k % axes.size()]))));
+  }
+  const std::string shared = item(element(
+      0x28, 0x9110, "SQ", item(element(0x18, 0x50, "DS", "2") + element(0x28, 0x30, "DS", "0.75\\0.5"))));
+  const std::string uid = "1.2.840.10008.5.1.4.1.1.4.1";
+  const std::string meta = element(2, 2, "UI", uid) + element(2, 3, "UI", "1.2.9") +
+                           element(2, 0x10, "UI", "1.2.840.10008.1.2.1") + element(2, 0x12, "UI", "1.2.3");
+  const auto length = bytes_of(std::vector<std::uint32_t>{static_cast<std::uint32_t>(meta.size())});
+  return std::string(128, '\0') + "DICM" + element(2, 0, "UL", length) + meta + element(8, 0x16, "UI", uid) +
+         element(8, 0x18, "UI", "1.2.9") + element(8, 0x60, "CS", "MR") + element(0x20, 0x0d, "UI", "1.2.3") +
+         element(0x20, 0x0e, "UI", "1.2.3.9") + us(0x28, 2, 1) + element(0x28, 4, "CS", "MONOCHROME2") +
+         element(0x28, 8, "IS", std::to_string(positions.size())) + us(0x28, 0x10, 2) + us(0x28, 0x11, 3) +
+         us(0x28, 0x100, 16) + us(0x28, 0x101, 16) + us(0x28, 0x102, 15) + us(0x28, 0x103, 1) +
+         element(0x5200, 0x9229, "SQ", shared) + element(0x5200, 0x9230, "SQ", frames) +
+         element(0x7fe0, 0x10, "OW", bytes_of(pixels));
 }
 
 /// `count` slices at the given distance; slice k holds 100·k + pixel. File names run against the positions.
@@ -215,4 +246,40 @@ TEST_CASE("DICOM bytes changed at random are read or refused, never worse") {
     write_bytes(folder / "a.dcm", bytes);
     REQUIRE_FALSE(contains(refusal(folder / "a.dcm"), "\n"));
   }
+}
+
+TEST_CASE("frames of an enhanced DICOM file are slices by their own positions") {
+  const TemporaryFolder folder;
+  const std::string upright = "1\\0\\0\\0\\0\\-1"; // coronal: the normal is +y
+  const std::vector<double> frame = {0, 1, 2, 3, 4, 5};
+  const auto values = [&](std::vector<double> order) {
+    std::vector<double> all;
+    for (const double k : order) {
+      for (const double pixel : frame)
+        all.push_back(100 * k + pixel);
+    }
+    return all;
+  };
+  write_bytes(folder / "a.dcm", enhanced({"5\\12\\7", "5\\8\\7", "5\\10\\7"}, {upright}));
+  const Volume v = read_file(folder / "a.dcm");
+  CHECK(v.dims == std::array<std::size_t, 3>{3, 2, 3});
+  CHECK(v.frames == 1);
+  CHECK(v.spacing == glm::dvec3(0.5, 0.75, 2));
+  CHECK(v.origin == glm::dvec3(5, 8, 7));
+  CHECK(v.direction[1] == glm::dvec3(0, 0, -1));
+  CHECK(v.direction[2] == glm::dvec3(0, 1, 0));
+  CHECK(scalars_of(v) == values({1, 2, 0}));
+  VolumeSource source;
+  source.file = folder / "a.dcm";
+  CHECK(files_of(source) == std::vector<fs::path>{folder / "a.dcm"});
+
+  // Every position twice: two frames in time.
+  write_bytes(folder / "a.dcm", enhanced({"5\\8\\7", "5\\10\\7", "5\\8\\7", "5\\10\\7"}, {upright}));
+  CHECK(read_file(folder / "a.dcm").frames == 2);
+  CHECK(scalars_of(read_file(folder / "a.dcm", 1)) == values({2, 3}));
+
+  write_bytes(folder / "a.dcm", enhanced({"5\\8\\7", "5\\10\\7", "5\\19\\7"}, {upright}));
+  CHECK(contains(refusal(folder / "a.dcm"), "uneven slice distances"));
+  write_bytes(folder / "a.dcm", enhanced({"5\\8\\7", "5\\10\\7"}, {upright, "1\\0\\0\\0\\1\\0"}));
+  CHECK(contains(refusal(folder / "a.dcm"), "different Image Orientations"));
 }

@@ -237,6 +237,31 @@ TEST_CASE("an image stack is read in natural order from a folder, a printf patte
   CHECK(contains(refusal(folder.path()), "s12.tif"));
 }
 
+TEST_CASE("the pages of one TIFF are slices") {
+  const TemporaryFolder folder;
+  // Two pages of 2 x 2 pixels of 16 bits by hand: header, directory and pixels of each page in turn.
+  std::string bytes = std::string("II*\0", 4) + bytes_of(std::vector<std::uint32_t>{8});
+  constexpr std::uint32_t directory = 2 + 9 * 12 + 4;
+  for (const std::uint32_t page : {0u, 1u}) {
+    const std::uint32_t start = 8 + page * (directory + 8);
+    const auto tag = [](std::uint16_t id, std::uint16_t type, std::uint32_t number) {
+      return bytes_of(std::vector<std::uint16_t>{id, type}) + bytes_of(std::vector<std::uint32_t>{1, number});
+    };
+    bytes += bytes_of(std::vector<std::uint16_t>{9}) + tag(256, 4, 2) + tag(257, 4, 2) + tag(258, 3, 16) +
+             tag(259, 3, 1) + tag(262, 3, 1) + tag(273, 4, start + directory) + tag(277, 3, 1) +
+             tag(278, 4, 2) + tag(279, 4, 8) +
+             bytes_of(std::vector<std::uint32_t>{page == 0 ? start + directory + 8 : 0}) +
+             bytes_of(std::vector<std::uint16_t>{static_cast<std::uint16_t>(1000 * page + 1), 2, 3, 60000});
+  }
+  write_bytes(folder / "pages.tif", bytes);
+  const Volume v = read_file(folder / "pages.tif");
+  CHECK(v.dims == std::array<std::size_t, 3>{2, 2, 2});
+  CHECK(v.type == ScalarType::u16);
+  CHECK(scalars_of(v) == std::vector<double>{1, 2, 3, 60000, 1001, 2, 3, 60000});
+  write_bytes(folder / "other.tif", bytes);
+  CHECK(contains(refusal(folder / "*.tif"), "has 2 pages"));
+}
+
 TEST_CASE("the hash of one file is its SHA-256, of several that of their digests") {
   const TemporaryFolder folder;
   write_bytes(folder / "abc", "abc");

@@ -135,6 +135,11 @@ TEST_CASE("a legacy VTK header that is wrong is refused by its field") {
                  {"SCALARS v short 1", "SCALARS v bit 1", "bit"},
                  {"SCALARS v short 1", "SCALARS v short 7", "components"},
                  {"BINARY", "MAYBE", "MAYBE"}});
+  // Found by fuzzing: ITK took the sizes from the first of these lines and asked for 22 GB.
+  std::string twice = vtk;
+  twice.replace(twice.find("DIMENSIONS 2 2 2"), 16, "DIMENSIONS[3 2 2\nDIMENSIONS 2 2 2");
+  write_bytes(folder / "twice.vtk", twice);
+  CHECK(read_file(folder / "twice.vtk").dims == std::array<std::size_t, 3>{2, 2, 2});
 }
 
 TEST_CASE("what is no regular file with contents is refused at once") {

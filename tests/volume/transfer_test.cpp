@@ -211,7 +211,10 @@ TEST_CASE("every preset is valid, visible, and has a faithful table") {
                                         "halves",
                                         "grey-ramp",
                                         "fog",
-                                        "opaque"};
+                                        "opaque",
+                                        "organs",
+                                        "organs-labels",
+                                        "colon"};
   std::set<std::string> names;
   for (const PresetInfo& info : presets()) {
     INFO(info.name);
@@ -316,4 +319,53 @@ TEST_CASE("the automatic function handles labels, constants and extremes") {
     CHECK_NOTHROW(make_table(f));
   }
   CHECK(evaluate(automatic_transfer(volume_of<std::uint8_t>(ScalarType::u8, {9, 9})), 9).a > 0);
+}
+
+TEST_CASE("window and level map the first point to level - window/2 and the last to level + window/2") {
+  const TransferFunction f = function_of({{-100, 1, 0, .5, 0}, {0, 0, 1, .5, .2}, {300, 0, 0, .5, .8}});
+  const TransferFunction g = windowed(f, 80, 40);
+  CHECK(g.points[0].value == 0);
+  CHECK(g.points[1].value == 20); // a quarter of the way: 0 lies 100 of 400 from the first point
+  CHECK(g.points[2].value == 80);
+  // The same colour at v as the function itself has at first + (v − (level − window/2))·(last −
+  // first)/window.
+  for (double v = -30; v < 120; v += 7)
+    check_rgba(evaluate(g, v), evaluate(f, -100 + v * 400 / 80));
+}
+
+TEST_CASE("a window alone keeps the middle, a level alone the width") {
+  const TransferFunction f = function_of({{-100, 1, 0, .5, 0}, {300, 0, 0, .5, .8}});
+  CHECK(windowed(f, 40, {}).points[0].value == 80);
+  CHECK(windowed(f, 40, {}).points[1].value == 120);
+  CHECK(windowed(f, {}, -50).points[0].value == -250);
+  CHECK(windowed(f, {}, -50).points[1].value == 150);
+  CHECK(windowed(f, {}, {}).points[1].value == 300);
+}
+
+TEST_CASE("a window keeps steps as steps and the reference length of the opacities") {
+  TransferFunction f = function_of({{0, 0, 0, 0, 0}, {.3, 0, 0, 0, 0}, {.3, 1, 1, 1, 1}, {1, 1, 1, 1, 1}});
+  f.unit_distance = 2;
+  const TransferFunction g = windowed(f, 1e-3, 700.1);
+  CHECK(g.points[1].value == g.points[2].value);
+  CHECK(g.points[1].value == Approx(700.1 - 0.5e-3 + 0.3e-3).epsilon(1e-12));
+  CHECK(g.points[3].value == 700.1 + 0.5e-3);
+  CHECK(g.unit_distance == 2);
+  CHECK(windowed(step_transfer(5, {0, 0, 0, 0}, {1, 1, 1, 1}), {}, 7).points[1].value == 7);
+}
+
+TEST_CASE("windows that leave no room for the points are refused by name") {
+  const auto message = [](const TransferFunction& f, double window, double level) -> std::string {
+    try {
+      (void)windowed(f, window, level);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const TransferFunction f = function_of({{0, 0, 0, 0, 0}, {1, 0, 0, 0, 0}, {2, 1, 1, 1, 1}});
+  CHECK(contains(message(f, 0, 1), "transfer.window is 0"));
+  CHECK(contains(message(f, std::nan(""), 1), "transfer.window is"));
+  CHECK(contains(message(f, 1e-20, 1), "fall together"));
+  CHECK(contains(message(constant_transfer({1, 1, 1, 1}), 10, 1), "transfer.window: the transfer function"));
+  CHECK(contains(message(f, 1e38, 1e38), "at most 1e38"));
 }

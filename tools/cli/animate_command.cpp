@@ -147,13 +147,16 @@ void make_folder(const Animation& animation) {
 
 using FileTime = fs::file_time_type;
 
-/// When the newest of the files that warps read was written: pictures hold their names only.
+/// When the newest of the files that warps, transfer function and camera come from was written: pictures hold
+/// their names only.
 FileTime newest_warp_file(const SceneInput& input) {
   std::vector<fs::path> files;
   const auto add = [&](const std::optional<std::string>& file, const char* key) {
     if (file)
       files.push_back(resolve_file(*file, input.folders, key));
   };
+  add(input.scene.transfer.file, "transfer.file");
+  add(input.scene.camera.file, "camera.file");
   for (const Warp& warp : input.scene.warp) {
     if (const auto* landmarks = std::get_if<Landmarks>(&warp)) {
       add(landmarks->file, "warp.file");

@@ -7,6 +7,7 @@
 #include "inputs.h"
 #include "lens_inputs.h"
 #include "options.h"
+#include "preset_sheet.h"
 #include "render/lens_picture.h"
 #include "scene/load.h"
 #include "scene/load_warps.h"
@@ -134,6 +135,23 @@ public:
 
   GalleryEntry make_entry(const GalleryScene& scene, const Progress& progress) {
     return scene.image ? make_lens_entry(scene) : make_volume_entry(scene, progress);
+  }
+
+  /// All presets on one picture.
+  GalleryEntry make_preset_entry(const Progress& progress) {
+    GalleryEntry entry;
+    entry.name = "presets";
+    entry.title = "All presets on the head phantom";
+    entry.data = "128×128×128, head for presets in HU, head-mr for those relative to the data's range";
+    entry.pictures.push_back(
+        {save(preset_sheet(context_, progress), "presets.png"),
+         "each preset of slicelens list presets; CT-MIP, MR-MIP and CT-X-ray in the mode "
+         "that they are made for"});
+    entry.scene_json = preset_scene(presets().front());
+    entry.command =
+        "slicelens render presets.json -o tile.png --set transfer.preset=" + presets().front().name;
+    write_text_atomically(folder_ / "presets.json", entry.scene_json + "\n");
+    return entry;
   }
 
   const std::string& driver() const { return driver_; }
@@ -314,6 +332,11 @@ void run_gallery(const GalleryOptions& options) {
     end_progress();
     std::fprintf(stderr, "%zu/%zu %s\n", entries.size() + 1, scenes.size(), scene.name.c_str());
     entries.push_back(gallery.make_entry(scene, progress));
+  }
+  if (options.inputs.empty()) {
+    end_progress();
+    std::fprintf(stderr, "presets\n");
+    entries.push_back(gallery.make_preset_entry(progress));
   }
   end_progress();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

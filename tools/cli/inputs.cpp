@@ -182,11 +182,15 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
   require_hash(input, hash);
   if (sha256 != nullptr)
     *sha256 = hash;
-  TransferFunction transfer = transfer_of(input.scene, volume);
   Scene scene = input.scene;
+  load_camera_file(scene, input.folders, progress);
+  load_transfer_file(scene.transfer, volume, input.folders, progress);
+  TransferFunction transfer = transfer_of(scene, volume);
   load_warp_files(scene, input.folders, progress);
   require_warp_hashes(input, scene);
   std::vector<LoadedVolume> others = load_others(scene, input.folders, progress);
+  for (std::size_t i = 0; i < others.size(); ++i) // what load_others has read, and said what was to be said
+    load_transfer_file(scene.others[i].transfer, others[i].volume, input.folders, {});
   return prepare(std::move(scene), std::move(volume), std::move(transfer), std::move(others));
 }
 
@@ -209,12 +213,15 @@ void load_again(PreparedScene& prepared, const SceneInput& input, const Progress
   const std::size_t had = prepared.others.size();
   prepared.others.resize(scene.others.size());
   for (std::size_t i = 0; i < volume_count(scene); ++i) {
-    const Scene now = scene_of_volume(scene, i);
+    Scene now = scene_of_volume(scene, i);
     PreparedScene& one = i == 0 ? prepared : prepared.others[i - 1];
     const bool known = i <= had;
     const Scene before = known ? scene_of_volume(one.scene, 0) : Scene{};
     if (!known || text_of(before.volume, &Scene::volume) != text_of(now.volume, &Scene::volume))
       set_volume(one, load_volume(now.volume, input.folders, progress));
+    TransferSettings& transfer = i == 0 ? scene.transfer : scene.others[i - 1].transfer;
+    load_transfer_file(transfer, one.volume, input.folders, progress);
+    now.transfer = transfer;
     one.transfer = transfer_of(now, one.volume);
     same_warps = same_warps && text_of(before.warp, &Scene::warp) == text_of(now.warp, &Scene::warp);
   }
@@ -225,6 +232,7 @@ void load_again(PreparedScene& prepared, const SceneInput& input, const Progress
   } else {
     load_warp_files(scene, input.folders, progress);
   }
+  load_camera_file(scene, input.folders, progress);
   prepared.scene = std::move(scene);
   prepare_again(prepared);
 }

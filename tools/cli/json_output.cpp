@@ -17,7 +17,7 @@ std::string metrics_json(const Metrics& metrics) {
       json[name] = *value;
     }
   }
-  return json.dump(2);
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 std::string volume_json(const Volume& volume) {
@@ -39,7 +39,7 @@ std::string volume_json(const Volume& volume) {
   json["format"] = volume.format;
   if (volume.non_finite > 0)
     json["non_finite"] = volume.non_finite;
-  return json.dump(2, ' ', true);
+  return json.dump(2, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 } // namespace slicelens::cli

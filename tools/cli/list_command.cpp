@@ -49,9 +49,16 @@ void list_phantoms() {
     row(phantom.name, phantom.description + " (preset " + phantom.preset + ")");
 }
 
+void list_labels() {
+  std::printf("label  value in organs  organ (phantoms organs-labels and organs)\n");
+  for (const OrganInfo& organ : organs())
+    std::printf("%5d  %15g  %s\n", organ.label, organ.value, organ.name.c_str());
+}
+
 void list_presets() {
   for (const PresetInfo& preset : presets())
-    row(preset.name, preset.description + (preset.relative ? " [relative to the data's range]" : " [HU]"));
+    row(preset.name, preset.description +
+                         (preset.relative ? " [relative to the data's range]" : " [" + preset.unit + "]"));
 }
 
 void list_keys() {
@@ -78,9 +85,9 @@ void list_warps() {
 
 void run_list(const ListOptions& options) {
   const std::vector<std::pair<std::string, std::function<void()>>> lists = {
-      {"contexts", list_contexts},   {"figures", list_figures},   {"keys", list_keys},
-      {"lens-keys", list_lens_keys}, {"phantoms", list_phantoms}, {"pipelines", list_pipelines},
-      {"presets", list_presets},     {"warps", list_warps}};
+      {"contexts", list_contexts},   {"figures", list_figures},     {"keys", list_keys},
+      {"labels", list_labels},       {"lens-keys", list_lens_keys}, {"phantoms", list_phantoms},
+      {"pipelines", list_pipelines}, {"presets", list_presets},     {"warps", list_warps}};
   std::vector<std::string> names;
   for (const auto& [name, list] : lists) {
     if (name == options.what) {

@@ -157,7 +157,7 @@ void add_list(CLI::App& app, ListOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand("list", "what this program knows");
   command
       .add_option("what", options.what,
-                  "contexts, figures, keys, lens-keys, phantoms, pipelines, presets or warps")
+                  "contexts, figures, keys, labels, lens-keys, phantoms, pipelines, presets or warps")
       ->type_name("");
   command.callback([&options, &run] { run = [&options] { run_list(options); }; });
 }
@@ -334,6 +334,50 @@ void add_slice(CLI::App& app, SliceOptions& options, std::function<void()>& run)
   command.callback([&options, &run] { run = [&options] { run_slice(options); }; });
 }
 
+void add_transfer(CLI::App& app, TransferOptions& options, std::function<void()>& run) {
+  CLI::App& command = *app.add_subcommand(
+      "transfer", "write a transfer function in the format of another program, or show it as a scene's keys");
+  command.footer("Writes ParaView colour maps (.json), 3D Slicer volume properties (.vp, .vp.json) and "
+                 "ImageVis3D tables (.1dt), and says\nwhat the format could not hold. Without -o the keys of "
+                 "the section transfer go to stdout. Files are read by scenes\nthrough transfer.file.\n\n"
+                 "  slicelens transfer CT-Bone -o bone.vp.json\n"
+                 "  slicelens transfer head.json -o head.1dt --rows 4096\n"
+                 "  slicelens transfer ColorMaps.json --map 'Cool to Warm' --range -200,400");
+  command
+      .add_option("input", options.input,
+                  "PRESET, file (.json, .xml, .vp, .vp.json, .1dt), SCENE, VOLUME or IMAGE")
+      ->required()
+      ->type_name("");
+  command.add_option("-o,--output", options.output, "file to write, .json, .vp, .vp.json or .1dt")
+      ->type_name("FILE");
+  command.add_option("--map", options.map, "name of the colour map in a ParaView file that holds several")
+      ->type_name("NAME");
+  command
+      .add_option("--range", options.range,
+                  "data values of the first and the last point of a file, relative preset or written table")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("LOW,HIGH");
+  command.add_option("--rows", options.rows, "of a table (.1dt)")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 16384))
+      ->type_name("N");
+  add_set(command, options.set);
+  command.callback([&options, &run] { run = [&options] { run_transfer(options); }; });
+}
+
+void add_camera(CLI::App& app, CameraOptions& options, std::function<void()>& run) {
+  CLI::App& command = *app.add_subcommand(
+      "camera", "write a scene's camera as a ParaView camera, or show it as explicit keys");
+  command.footer("Without -o the keys of the section camera go to stdout, with positions instead of angles. "
+                 "Scenes read such files\nthrough camera.file.\n\n"
+                 "  slicelens camera head.json -o head.pvcc");
+  command.add_option("input", options.input, "SCENE, VOLUME or IMAGE")->required()->type_name("");
+  command.add_option("-o,--output", options.output, "file to write, .pvcc")->type_name("FILE");
+  add_set(command, options.set);
+  command.callback([&options, &run] { run = [&options] { run_camera(options); }; });
+}
+
 /// An error's text as one line on stderr.
 int fail(const std::string& message, int status) {
   end_progress();
@@ -398,6 +442,8 @@ int run_program(int argc, char** argv) {
   WarpOptions warp;
   PickOptions pick;
   SliceOptions slice;
+  TransferOptions transfer;
+  CameraOptions camera;
   add_render(app, render, run);
   add_lens(app, lens, run);
   add_compare(app, compare, run);
@@ -410,6 +456,8 @@ int run_program(int argc, char** argv) {
   add_warp(app, warp, run);
   add_pick(app, pick, run);
   add_slice(app, slice, run);
+  add_transfer(app, transfer, run);
+  add_camera(app, camera, run);
   try {
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);

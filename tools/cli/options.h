@@ -112,6 +112,21 @@ struct SliceOptions {
   std::string depth; ///< as in RenderOptions
 };
 
+struct TransferOptions {
+  std::string input;  ///< preset, file of another program, scene, volume or picture
+  std::string output; ///< .json, .vp, .vp.json or .1dt; empty: the section of a scene on stdout
+  std::string map;    ///< of a file that holds several
+  std::vector<double> range;
+  std::size_t rows = 256; ///< of .1dt
+  std::vector<std::string> set;
+};
+
+struct CameraOptions {
+  std::string input;
+  std::string output; ///< .pvcc; empty: the section of a scene on stdout
+  std::vector<std::string> set;
+};
+
 // Each runs one command and returns; results go to stdout and files, the rest to stderr. They throw the
 // errors of core/errors.h.
 void run_render(const RenderOptions& options);
@@ -126,5 +141,7 @@ void run_plot(const PlotOptions& options);
 void run_warp(const WarpOptions& options);
 void run_pick(const PickOptions& options);
 void run_slice(const SliceOptions& options);
+void run_transfer(const TransferOptions& options);
+void run_camera(const CameraOptions& options);
 
 } // namespace slicelens::cli

@@ -119,7 +119,7 @@ void run_pick(const PickOptions& options) {
   json["accumulated"] = hit_json(prepared, samples, first_accumulated(samples, ratio));
   if (!options.profile.empty())
     write_text_atomically(options.profile, profile_csv(samples, ratio));
-  std::printf("%s\n", json.dump(2, ' ', true).c_str());
+  std::printf("%s\n", json.dump(2, ' ', true, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
 } // namespace slicelens::cli
