@@ -24,8 +24,6 @@
 uniform CutPlane planes[CUT_PLANES];
 #endif
 
-uniform RayFrame frame;
-uniform float delta;             // Δ, world units
 uniform float distance_ratio;    // Δ/Δ₀, or 1 without correction
 uniform float early_termination;
 uniform vec3 to_eye_axis;
@@ -37,7 +35,9 @@ uniform int jitter_seed;
 #endif
 
 #include "gpu/region.glsl"
+#include "gpu/ray.glsl"
 #include "gpu/iso.glsl"
+#include "gpu/segments.glsl"
 
 in vec2 place;
 out vec4 result;
@@ -50,7 +50,7 @@ vec4 first_surface(PixelRay ray, int first, int last, float offset) {
   float before_value = 0.0;
   vec3 before = vec3(0.0);
   for (int k = first; k <= last; ++k) {
-    vec3 p = ray.origin + ((float(k) + 0.5 + offset) * delta) * ray.direction;
+    vec3 p = ray_point(ray, float(k) + offset);
     vec3 t = shown_point(p);
     bool has = shows_data(t);
     float value = displayed_value(t);
@@ -180,6 +180,24 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 
 #endif
 
+#ifdef PREINTEGRATED
+// The segment around p, with the texels at its two ends.
+vec4 gather_segment(vec4 gathered, vec3 p, vec3 to_eye, vec2 ends) {
+#ifdef WARPED
+  vec3 t = texture_from_object(p);
+  if (!in_volume(t) || !in_data_planes(t)) return gathered;
+#else
+  vec3 t = p;
+#endif
+#ifdef FOCUS_EFFECTS
+  vec2 focus = effects_at(p);
+#else
+  vec2 focus = vec2(1.0, 0.0);
+#endif
+  return under(gathered, segment_color(ends, t, p, to_eye, focus, 1.0));
+}
+#endif
+
 #ifdef CUT_PLANES
 // The nearest cutting plane on the ray: its distance (beyond the interval: none) and colour. Planes are not cut by clipping planes.
 vec4 nearest_plane(PixelRay ray, vec2 interval, inout float nearest) {
@@ -205,11 +223,10 @@ vec4 nearest_plane(PixelRay ray, vec2 interval, inout float nearest) {
 #endif
 
 void main() {
+  PixelRay ray = ray_through(place);
 #ifdef PERSPECTIVE
-  PixelRay ray = ray_from_pixel(frame, true, place.x, place.y);
   vec3 to_eye = -normalize(world_from_direction * ray.direction);
 #else
-  PixelRay ray = ray_from_pixel(frame, false, place.x, place.y);
   vec3 to_eye = to_eye_axis;
 #endif
   vec2 interval = hit_box(ray, object_low, object_high);
@@ -218,7 +235,7 @@ void main() {
   vec4 behind = nearest_plane(ray, interval, stop);
   interval.y = min(interval.y, stop);
 #endif
-  for (int i = 0; i < clip_count; ++i) interval = clip_interval(interval, ray, clip_planes[i]);
+  interval = clipped(interval, ray);
 #if defined(MODE_MIP) && !defined(VOLUMES) && !defined(MODE_AVERAGE)
   vec4 gathered = vec4(-3.0e38, 0.0, 0.0, 0.0);
 #else
@@ -240,11 +257,18 @@ void main() {
 #ifdef LOCAL_MODES
     TwoLevel state = nothing_gathered();
 #endif
+#ifdef PREINTEGRATED
+    float front = end_texel(ray_point(ray, float(first) - 0.5));
+#endif
     for (int k = first; k <= last; ++k) {
-      vec3 p = ray.origin + ((float(k) + 0.5 + offset) * delta) * ray.direction;
-#ifdef LOCAL_MODES
+      vec3 p = ray_point(ray, float(k) + offset);
+#if defined(LOCAL_MODES)
       state = gather_objects(state, p, to_eye);
       gathered = state.gathered;
+#elif defined(PREINTEGRATED)
+      float back = end_texel(ray_point(ray, float(k) + 0.5));
+      gathered = gather_segment(gathered, p, to_eye, vec2(front, back));
+      front = back;
 #else
       gathered = gather(gathered, p, to_eye);
 #endif

@@ -7,7 +7,9 @@
 // also tests where it looks: that mesh is not clipped in the data;
 // WARP_FRAGMENT evaluates the warps here; AXIS_TABLES reads them from Cohen's tables. HIGHLIGHT and ATTENUATION follow the
 // coordinate where the sample is shown; under MIP the winner of the depth test keeps its own. VOLUMES: there are several
-// (gpu/one_volume.glsl); under MIP each has its own channel.
+// (gpu/one_volume.glsl); under MIP each has its own channel. SHELLS: polygons only cover what a shell about the eye can
+// colour, and each fragment takes the sample that rays.frag would take there. PREINTEGRATED: it stands for the segment of
+// its ray around it (gpu/segments.glsl).
 
 #include "lib/opacity.glsl"
 #include "lib/composite.glsl"
@@ -35,7 +37,13 @@ uniform vec3 to_eye_axis;         // world: against the viewing direction
 uniform vec3 eye;                 // world, perspective
 uniform mat4 world_from_texture;
 
-#if defined(JITTER) || defined(MODE_ISO)
+#if defined(SHELLS) || defined(PREINTEGRATED)
+#include "lib/ray.glsl"
+#include "gpu/region.glsl"
+#include "gpu/ray.glsl"
+uniform vec2 place_from_pixel;  // pixels to [0, 2]
+vec2 place() { return place_from_pixel * gl_FragCoord.xy - 1.0; }
+#elif defined(JITTER) || defined(MODE_ISO)
 #include "gpu/region.glsl"
 #include "gpu/step.glsl"
 #endif
@@ -45,6 +53,9 @@ uniform float jitter;
 uniform int jitter_seed;
 in vec3 slice_coordinate;
 vec3 object_coordinate;  // where this pixel's sample is
+#elif defined(SHELLS)
+flat in float shell;
+vec3 object_coordinate;
 #else
 in vec3 object_coordinate;
 #endif
@@ -55,12 +66,29 @@ in vec4 homogeneous_coordinate;
 out vec4 result;
 
 #if defined(CORRECT_FRAGMENT)
-float sample_ratio() {
+float stretch() {
   vec2 slope = slope_from_pixel.xy * gl_FragCoord.xy + slope_from_pixel.zw;
-  return distance_ratio * sqrt(1.0 + dot(slope, slope));
+  return sqrt(1.0 + dot(slope, slope));
 }
+float sample_ratio() { return distance_ratio * stretch(); }
 #else
+float stretch() { return 1.0; }
 float sample_ratio() { return distance_ratio; }
+#endif
+
+#include "gpu/segments.glsl"
+#ifdef PREINTEGRATED
+// Half the way from one sample to the next on this fragment's ray, away from the eye.
+vec3 half_step() {
+#if defined(SHELLS)
+  return 0.5 * delta * ray_through(place()).direction;
+#elif defined(PERSPECTIVE)
+  vec2 at = place();
+  return 0.5 * delta * (frame.forward + at.x * frame.right + at.y * frame.up);
+#else
+  return 0.5 * delta * frame.forward;
+#endif
+}
 #endif
 
 vec3 direction_to_eye(vec3 p) {
@@ -78,6 +106,14 @@ void shift_sample() {
   float offset = jitter * pixel_offset(pixel.x, pixel.y, uint(jitter_seed));
   object_coordinate = slice_coordinate - offset * step_to_eye(slice_coordinate);
   if (!in_region(object_coordinate)) discard;
+}
+#elif defined(SHELLS)
+// To where the shell meets this pixel's ray.
+void shift_sample() {
+  PixelRay ray = ray_through(place());
+  vec2 interval = clipped(hit_box(ray, object_low, object_high), ray);
+  if (shell < first_sample(interval.x, delta) || shell > last_sample(interval.y, delta)) discard;
+  object_coordinate = ray_point(ray, shell);
 }
 #else
 void shift_sample() {}
@@ -144,7 +180,15 @@ void main() {
 #elif defined(FOCUS_EFFECTS)
   vec2 focus = effects_at(object_coordinate);
 #endif
-#if defined(CLASSIFICATION_PRE)
+#if defined(PREINTEGRATED)
+#ifndef FOCUS_EFFECTS
+  vec2 focus = vec2(1.0, 0.0);
+#endif
+  vec3 p = object_coordinate;
+  vec3 ahead = half_step();
+  result = segment_color(vec2(end_texel(p - ahead), end_texel(p + ahead)), texture_coordinate, p, direction_to_eye(p),
+                         focus, stretch());
+#elif defined(CLASSIFICATION_PRE)
   vec4 sample_color = classified_sample(texture_coordinate);
 #if defined(MODE_XRAY)
 #if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)

@@ -4,6 +4,7 @@
 #include "render/pre_classification.h"
 #include "scene/names.h"
 #include "volume/pyramid.h"
+#include "volume/segment_table.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -132,6 +133,24 @@ void upload_transfer_2d(const gl::Functions& gl, const PreparedScene& prepared, 
   scene.bytes += table.rgba.size() * sizeof(float);
 }
 
+/// The table of classification `preintegrated`. Needs scene.value_from_texel. Returns its bytes.
+std::size_t upload_segments(const gl::Functions& gl, const PreparedScene& prepared, GpuScene& scene) {
+  if (prepared.scene.render.classification != Classification::preintegrated)
+    return 0;
+  const bool corrected = prepared.scene.render.opacity_correction != OpacityCorrection::none;
+  const SegmentTable table = make_segment_table(prepared.transfer, prepared.volume.min, prepared.volume.max,
+                                                corrected ? axis_distance_ratio(prepared) : 1);
+  const auto count = static_cast<double>(table.texels);
+  const double scale = (count - 1) / (count * (table.last - table.first));
+  const glm::dvec2 value(scene.value_from_texel);
+  scene.segment_from_texel = glm::vec2(scale * value.x, 0.5 / count + scale * (value.y - table.first));
+  gl::TextureSpec spec;
+  spec.format = GL_RGBA32F;
+  const int side = static_cast<int>(table.texels);
+  scene.segments = gl::make_texture_2d(gl, spec, {side, side}, std::as_bytes(std::span(table.rgba)));
+  return table.rgba.size() * sizeof(float);
+}
+
 /// Codes between whole numbers, for the means of coarser levels: as many as the type has to spare. Whole
 /// numbers stay exact where coding_of holds them exactly.
 template <class U>
@@ -224,6 +243,7 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
   scene.bytes += grid_bytes(maps);
   if (!prepared.scene.transfer.shapes.empty())
     upload_transfer_2d(gl, prepared, scene);
+  scene.bytes += upload_segments(gl, prepared, scene);
   scene.labels = upload_labels(gl, prepared, progress);
   scene.bytes += scene.labels.bytes;
   for (const PreparedScene& other : prepared.others) {

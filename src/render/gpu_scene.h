@@ -15,10 +15,12 @@ struct GpuScene {
   gl::Texture volume;      ///< 3D, one channel, or associated RGBA of 8 bits under classification `pre`
   gl::Texture transfer;    ///< 1D, straight RGBA; none under classification `pre`
   gl::Texture transfer_2d; ///< 2D, associated RGBA, of value and gradient; where the scene has shapes
-  glm::vec4 transfer_2d_place{1, 1, 0, 0};    ///< table coordinates = xy · (value, gradient) + zw
-  glm::vec2 value_from_texel{1, 0};           ///< data value = x · texel + y
-  glm::vec2 transfer_from_value{1, 0};        ///< table coordinate = x · value + y
-  glm::vec2 transfer_from_texel{1, 0};        ///< table coordinate = x · texel + y
+  glm::vec4 transfer_2d_place{1, 1, 0, 0}; ///< table coordinates = xy · (value, gradient) + zw
+  glm::vec2 value_from_texel{1, 0};        ///< data value = x · texel + y
+  glm::vec2 transfer_from_value{1, 0};     ///< table coordinate = x · value + y
+  glm::vec2 transfer_from_texel{1, 0};     ///< table coordinate = x · texel + y
+  gl::Texture segments;               ///< 2D, classification `preintegrated` only (volume/segment_table.h)
+  glm::vec2 segment_from_texel{1, 0}; ///< its coordinate = x · texel + y
   VolumeTexture format = VolumeTexture::r32f; ///< what `automatic` became
   std::string texture;                        ///< what holds the volume, in words: "r16"
   std::size_t bytes = 0;                      ///< of all textures

@@ -391,7 +391,7 @@ Correction correction_of(const PreparedScene& prepared) {
   if (render.opacity_correction == OpacityCorrection::none)
     return Correction::none;
   if (render.opacity_correction == OpacityCorrection::fragment && draws_slices(render.pipeline) &&
-      prepared.view.projection == Projection::perspective) {
+      render.proxy == Proxy::planes && prepared.view.projection == Projection::perspective) {
     return Correction::per_fragment;
   }
   return axis_distance_ratio(prepared) == 1 ? Correction::none : Correction::constant;

@@ -5,6 +5,7 @@
 #include "gl/timer.h"
 #include "render/cut_planes.h"
 #include "render/ray_frame.h"
+#include "render/ray_uniforms.h"
 #include "render/several_volumes.h"
 #include "render/shaders.h"
 #include "render/uniforms.h"
@@ -12,28 +13,6 @@
 #include <algorithm>
 
 namespace slicelens {
-
-namespace {
-
-void set_ray_uniforms(const gl::Functions& gl, const gl::Program& program, const PreparedScene& prepared) {
-  const RayFrameValues frame = ray_frame(prepared);
-  set_uniform(gl, program, "frame.center", glm::vec3(frame.center));
-  set_uniform(gl, program, "frame.forward", glm::vec3(frame.forward));
-  set_uniform(gl, program, "frame.right", glm::vec3(frame.right));
-  set_uniform(gl, program, "frame.up", glm::vec3(frame.up));
-  set_uniform(gl, program, "frame.half_width", static_cast<float>(frame.half_width));
-  set_uniform(gl, program, "frame.half_height", static_cast<float>(frame.half_height));
-  set_uniform(gl, program, "frame.anchor", static_cast<float>(frame.anchor));
-  set_uniform(gl, program, "delta", static_cast<float>(prepared.spacing));
-  set_uniform(gl, program, "xray_scale", static_cast<float>(prepared.xray_scale));
-  set_uniform(gl, program, "early_termination", static_cast<float>(prepared.scene.render.early_termination));
-  set_uniform(gl, program, "world_from_direction", glm::mat3(prepared.box.world_from_texture));
-  const std::vector<CutPlane> shown = cut_planes(prepared);
-  for (std::size_t i = 0; i < shown.size(); ++i)
-    set_plane(gl, program, "planes[" + std::to_string(i) + "]", shown[i]);
-}
-
-} // namespace
 
 RayRenderer::RayRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
   check_sample_count(prepared);
@@ -59,6 +38,12 @@ void RayRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, con
   gl.UseProgram(program_.name());
   set_common_uniforms(gl, program_, prepared, scene);
   set_ray_uniforms(gl, program_, prepared);
+  set_uniform(gl, program_, "xray_scale", static_cast<float>(prepared.xray_scale));
+  set_uniform(gl, program_, "early_termination", static_cast<float>(prepared.scene.render.early_termination));
+  set_uniform(gl, program_, "world_from_direction", glm::mat3(prepared.box.world_from_texture));
+  const std::vector<CutPlane> shown = cut_planes(prepared);
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    set_plane(gl, program_, "planes[" + std::to_string(i) + "]", shown[i]);
   gl.BindVertexArray(no_vertices_.name());
   // One triangle draws the picture. Only where somebody watches it is cut into bands.
   const int band = progress.advance ? std::max(16, target.height / 32) : target.height;

@@ -5,6 +5,7 @@
 #include "render/level_values.h"
 #include "render/pre_classification.h"
 #include "render/ray_frame.h"
+#include "render/segment_integral.h"
 #include "render/several_volumes.h"
 #include "render/smooth_copy.h"
 #include "render/voxel_filter.h"
@@ -38,6 +39,7 @@ struct SharedFunctions {
 #include "lib/labels.glsl"
 #include "lib/opacity.glsl"
 #include "lib/ray.glsl"
+#include "lib/segment.glsl"
 #include "lib/shade.glsl"
 #include "lib/two_level.glsl"
 };
@@ -70,6 +72,7 @@ struct Tracer : SharedFunctions {
   Correction correction;
   real ratio;
   std::vector<CutPlane> planes;
+  vec3 half_step{0};      ///< along the ray that is traced, texture space
   VolumeSamplers volumes; ///< all of several volumes; none for a single one
 
   Tracer(const PreparedScene& scene, const std::byte* classified_voxels, const SmoothCopy* smooth_voxels)
@@ -334,6 +337,21 @@ struct Tracer : SharedFunctions {
     return this->associated(vec3(color), color.w);
   }
 
+  /// Classification `preintegrated`: the segment around p, which shows t. Shaded and highlighted as its
+  /// middle is.
+  vec4 gather_segment(vec4 gathered, vec3 t, vec3 p, vec3 to_eye) {
+    const vec4 segment = segment_integral(prepared.transfer, displayed_value(data_point(p - half_step)),
+                                          displayed_value(data_point(p + half_step)), ratio);
+    if (segment.w == 0)
+      return gathered;
+    vec4 color(vec3(segment) / segment.w, 1);
+    if (prepared.scene.render.shading != Shading::none)
+      color = vec4(shaded(vec3(color), t, p, to_eye), 1);
+    color = with_effects(color, focus_at(p));
+    return this->under(gathered,
+                       this->associated(vec3(color), this->segment_opacity(segment.w, color.w, ratio, 1)));
+  }
+
   vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
     if (!volumes.empty())
       return gather_several(gathered, p, to_eye);
@@ -343,6 +361,8 @@ struct Tracer : SharedFunctions {
     if (is_warped(prepared) && !shows_data(t))
       return gathered;
     const Mode mode = prepared.scene.render.mode;
+    if (prepared.scene.render.classification == Classification::preintegrated)
+      return gather_segment(gathered, t, p, to_eye);
     if (classified != nullptr) {
       const vec4 color = classified_sample(t);
       return mode == Mode::xray ? gathered + vec4(color.w * ratio) : this->under(gathered, color);
@@ -419,6 +439,7 @@ struct Tracer : SharedFunctions {
     const vec3 to_eye = perspective ? -normalize(dmat3(prepared.box.world_from_texture) * ray.direction)
                                     : -prepared.view.forward;
     const real delta = prepared.spacing;
+    half_step = 0.5 * delta * ray.direction;
     const auto first = static_cast<std::int64_t>(this->first_sample(interval.x - offset * delta, delta));
     const auto last = static_cast<std::int64_t>(this->last_sample(interval.y - offset * delta, delta));
     if (mode == Mode::iso)

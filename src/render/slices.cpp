@@ -3,6 +3,7 @@
 #include "gl/check.h"
 #include "gl/state.h"
 #include "gl/timer.h"
+#include "render/ray_uniforms.h"
 #include "render/several_volumes.h"
 #include "render/shaders.h"
 #include "render/stack_geometry.h"
@@ -159,6 +160,10 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   set_uniform(gl, program_, "slope_from_pixel",
               glm::vec4(2 * half_width(view) / view.width, 2 * view.half_height / view.height,
                         -half_width(view), -view.half_height));
+  if (render.proxy == Proxy::shells || render.classification == Classification::preintegrated) {
+    set_ray_uniforms(gl, program_, prepared);
+    set_uniform(gl, program_, "place_from_pixel", 2.0F / glm::vec2(view.width, view.height));
+  }
   if (picks_winner(prepared))
     set_depth_test(gl, render);
   else

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "render/bricks.h"
+#include "slicing/shell_stack.h"
 #include "slicing/slice_stack.h"
 #include "tess/subdivided_slice.h"
 
@@ -40,6 +41,44 @@ void append_tiles(StackGeometry& geometry, const LensMesh& mesh, const TileCuts&
   }
 }
 
+/// Near and far of what is displayed, along the view axis. Depth is not used; they need only hold everything.
+Interval drawn_depths(const PreparedScene& prepared) {
+  const double middle = depth(prepared.view, center(prepared.box));
+  double radius = bounding_radius(prepared.box);
+  for (int k = 0; k < 8; ++k) {
+    const glm::dvec3 corner =
+        glm::mix(prepared.object_low, prepared.object_high, glm::dvec3(k & 1, k >> 1 & 1, k >> 2 & 1));
+    radius =
+        std::max(radius, std::abs(depth(prepared.view, world_from_texture(prepared.box, corner)) - middle));
+  }
+  double near = middle - 1.01 * radius;
+  const double far = std::max(middle + 1.01 * radius, near + radius);
+  if (prepared.view.projection == Projection::perspective)
+    near = std::max(near, 1e-6 * far);
+  return {near, far};
+}
+
+/// All shells are drawn in one plane; the fragments find their samples themselves (gpu/ray.glsl), each vertex
+/// says of which shell.
+StackGeometry shell_geometry(const PreparedScene& prepared, SliceRequest request) {
+  request.low = prepared.object_low;
+  request.high = prepared.object_high;
+  const Interval depths = drawn_depths(prepared);
+  const SliceStack stack = make_shell_stack(request, (depths.near + depths.far) / 2);
+  StackGeometry geometry;
+  for (const Slice& slice : stack.slices) {
+    const auto first = static_cast<std::uint32_t>(geometry.vertices.size());
+    for (std::uint32_t i = 0; i < slice.count; ++i) {
+      geometry.vertices.push_back(
+          {glm::vec3(stack.corners[slice.first + i]), glm::vec4(slice.index, 0, 0, 1)});
+    }
+    for (std::uint32_t i = 1; i + 1 < slice.count; ++i)
+      geometry.indices.insert(geometry.indices.end(), {first, first + i, first + i + 1});
+    geometry.index_ends.push_back(geometry.indices.size());
+  }
+  return geometry;
+}
+
 /// Refuses meshes that would take gigabytes before they are made.
 void check_cells(const SliceStack& stack, std::size_t subdivision) {
   constexpr double most = 3e7;
@@ -71,6 +110,8 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
   request.spacing = prepared.spacing;
   request.order =
       render.order == Order::front_to_back ? SliceOrder::front_to_back : SliceOrder::back_to_front;
+  if (render.proxy == Proxy::shells)
+    return shell_geometry(prepared, request);
   // Samples that jitter moves off their slice may come back into the volume: fragments test where they are.
   const bool moved = render.jitter > 0;
   if (!moved && (!lenses_only || !warped))
@@ -112,19 +153,7 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
 }
 
 glm::dmat4 clip_from_texture(const PreparedScene& prepared) {
-  // Depth is not used; near and far need only hold what is displayed.
-  const double middle = depth(prepared.view, center(prepared.box));
-  double radius = bounding_radius(prepared.box);
-  for (int k = 0; k < 8; ++k) {
-    const glm::dvec3 corner =
-        glm::mix(prepared.object_low, prepared.object_high, glm::dvec3(k & 1, k >> 1 & 1, k >> 2 & 1));
-    radius =
-        std::max(radius, std::abs(depth(prepared.view, world_from_texture(prepared.box, corner)) - middle));
-  }
-  double near = middle - 1.01 * radius;
-  const double far = std::max(middle + 1.01 * radius, near + radius);
-  if (prepared.view.projection == Projection::perspective)
-    near = std::max(near, 1e-6 * far);
+  const auto [near, far] = drawn_depths(prepared);
   return clip_from_world(prepared.view, near, far) * prepared.box.world_from_texture;
 }
 

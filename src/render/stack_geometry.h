@@ -11,7 +11,8 @@ namespace slicelens {
 /// One corner, 7 floats.
 struct StackVertex {
   glm::vec3 position; ///< where it is shown: texture coordinates of the displayed volume
-  glm::vec4 texture;  ///< (s·q, t·q, r·q, q) of the data looked at; read by pipeline `tessellated` only
+  glm::vec4 texture;  ///< (s·q, t·q, r·q, q) of the data looked at; read by pipeline `tessellated` only.
+                      ///< Shells: x is the number k of the shell
 };
 
 /// Triangles that follow each other and read the same tile.

@@ -57,6 +57,8 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("FILTER_CUBIC");
   if (render.classification == Classification::pre)
     macros.emplace_back("CLASSIFICATION_PRE");
+  if (render.classification == Classification::preintegrated)
+    macros.emplace_back("PREINTEGRATED");
   if (is_bricked(prepared))
     macros.push_back("LEVELS " + std::to_string(prepared.levels));
   if (render.footprint == Footprint::mip && prepared.levels > 1)
@@ -89,6 +91,8 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
   add_shading_macros(prepared, macros);
   if (prepared.view.projection == Projection::perspective)
     macros.emplace_back("PERSPECTIVE");
+  if (render.proxy == Proxy::shells)
+    macros.emplace_back("SHELLS");
   if (render.pipeline == Pipeline::axis) {
     macros.emplace_back("AXIS_TABLES");
     if (is_unmasked(prepared.tables))
@@ -245,6 +249,12 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
     set_struct(gl, program, "effects", prepared.effects);
   if (scene.axis[0])
     set_axis_tables(gl, program, scene.axis);
+  if (scene.segments) {
+    gl.ActiveTexture(GL_TEXTURE0 + segment_unit);
+    gl.BindTexture(GL_TEXTURE_2D, scene.segments.name());
+    set_uniform(gl, program, "segment_texture", static_cast<int>(segment_unit));
+    set_uniform(gl, program, "segment_from_texel", scene.segment_from_texel);
+  }
   if (!scene.bricks.empty()) {
     set_uniform(gl, program, "log_zoom", static_cast<float>(prepared.log_zoom));
     const auto& dims = prepared.volume.dims;

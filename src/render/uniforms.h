@@ -35,6 +35,9 @@ void set_volume_uniforms(const gl::Functions& gl, const gl::Uniforms& program, c
 /// and the levels of a pyramid.
 inline constexpr GLenum axis_unit = 12;
 
+/// Of the table of segments: that of MIP's maxima, which have none.
+inline constexpr GLenum segment_unit = 2;
+
 /// Planes as GLSL takes them: (normal, −offset).
 std::vector<glm::vec4> plane_vectors(const std::vector<Plane>& planes);
 

@@ -139,6 +139,9 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key("spacing", s.spacing, "slice or step distance in units of the smallest voxel spacing",
             Range::positive);
   visit.key("order", s.order, "back-to-front or front-to-back blending of slices");
+  visit.key("proxy", s.proxy,
+            "what slices are: planes, or shells about the eye (perspective only), whose samples are those of "
+            "rays");
   visit.key("opacity_correction", s.opacity_correction,
             "fragment (for the distance along each ray), frame (for the slice distance only) or none");
   visit.key("shading", s.shading,
@@ -154,8 +157,9 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.key("gradient_sigma", s.gradient_sigma,
             "standard deviation of that Gaussian in voxels of the copy, 0.3 to 8", Range::positive);
   visit.key("classification", s.classification,
-            "post (interpolate values, then classify) or pre (classify voxels into 8-bit associated colours, "
-            "then interpolate those)");
+            "post (interpolate values, then classify), pre (classify voxels into 8-bit associated colours, "
+            "then interpolate those) or preintegrated (each sample stands for a segment of its ray, "
+            "classified from its two ends: Engel et al. 2001)");
   visit.key(
       "filter", s.filter,
       "nearest, linear (the driver's), linear-exact (float weights in the shader) or cubic (B-spline, which "

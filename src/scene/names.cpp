@@ -50,6 +50,11 @@ const std::vector<EnumName<Order>>& names_of(Order) {
   return names;
 }
 
+const std::vector<EnumName<Proxy>>& names_of(Proxy) {
+  static const std::vector<EnumName<Proxy>> names = {{Proxy::planes, "planes"}, {Proxy::shells, "shells"}};
+  return names;
+}
+
 const std::vector<EnumName<OpacityCorrection>>& names_of(OpacityCorrection) {
   static const std::vector<EnumName<OpacityCorrection>> names = {{OpacityCorrection::fragment, "fragment"},
                                                                  {OpacityCorrection::frame, "frame"},
@@ -87,8 +92,10 @@ const std::vector<EnumName<GradientResolution>>& names_of(GradientResolution) {
 }
 
 const std::vector<EnumName<Classification>>& names_of(Classification) {
-  static const std::vector<EnumName<Classification>> names = {{Classification::post, "post"},
-                                                              {Classification::pre, "pre"}};
+  static const std::vector<EnumName<Classification>> names = {
+      {Classification::post, "post"},
+      {Classification::pre, "pre"},
+      {Classification::preintegrated, "preintegrated"}};
   return names;
 }
 

@@ -22,6 +22,7 @@ const std::vector<EnumName<Pipeline>>& names_of(Pipeline);
 const std::vector<EnumName<Mode>>& names_of(Mode);
 const std::vector<EnumName<LabelMode>>& names_of(LabelMode);
 const std::vector<EnumName<Order>>& names_of(Order);
+const std::vector<EnumName<Proxy>>& names_of(Proxy);
 const std::vector<EnumName<OpacityCorrection>>& names_of(OpacityCorrection);
 const std::vector<EnumName<Shading>>& names_of(Shading);
 const std::vector<EnumName<Gradient>>& names_of(Gradient);

@@ -146,6 +146,38 @@ void validate_pre_classification(const RenderSettings& render, const CameraSetti
   }
 }
 
+/// Segments need both their ends, of one volume at one resolution.
+void validate_preintegrated(const Scene& scene) {
+  const RenderSettings& render = scene.render;
+  const auto refuse = [](const std::string& problem, const std::string& remedy) {
+    throw UsageError("render.classification 'preintegrated' " + problem +
+                     "; set render.classification to post or " + remedy);
+  };
+  if (render.mode == Mode::two_level)
+    refuse("has a table of one transfer function, and mode 'two-level' one for each label",
+           "render.mode to dvr");
+  if (render.mode != Mode::dvr)
+    refuse("holds what segments emit and absorb, of which mode '" + word(render.mode) + "' needs neither",
+           "render.mode to dvr");
+  if (render.pipeline == Pipeline::tessellated)
+    refuse("looks in front of each slice and behind it, where the triangles of pipeline 'tessellated' hold "
+           "nothing",
+           "render.pipeline to fragment, axis, grid, rays or reference");
+  if (render.tiles != std::array<std::size_t, 3>{1, 1, 1})
+    refuse("looks beyond the tile of a fragment", "render.tiles to [1,1,1]");
+  if (render.footprint == Footprint::mip)
+    refuse("classifies values of one resolution", "render.footprint to point");
+  if (render.levels != 1)
+    refuse("classifies values of one resolution", "render.levels to 1");
+  if (render.jitter > 0)
+    refuse("leaves no gaps between segments for render.jitter to hide", "render.jitter to 0");
+  if (render.modulate_by_gradient || !scene.transfer.shapes.empty())
+    refuse("classifies pairs of values, without the gradient between them",
+           "remove render.modulate_by_gradient and transfer.shapes");
+  if (render.transfer_texture != TransferTexture::rgba32f)
+    refuse("has a table of floats of its own", "render.transfer_texture to rgba32f");
+}
+
 /// What hardware without shaders could do (LaMar 2001).
 void validate_fixed_function(const RenderSettings& render) {
   const auto refuse = [](const std::string& problem, const std::string& key, const std::string& value) {
@@ -163,6 +195,39 @@ void validate_fixed_function(const RenderSettings& render) {
     refuse("has no filter '" + word(render.filter) + "', which is a shader's", "render.filter",
            "linear or nearest");
   }
+}
+
+/// Slices as shells about the eye: every fragment finds its own sample, on its ray.
+void validate_shells(const Scene& scene) {
+  const RenderSettings& render = scene.render;
+  if (render.proxy == Proxy::planes)
+    return;
+  const auto refuse = [](const std::string& problem) {
+    throw UsageError("render.proxy 'shells' " + problem);
+  };
+  const std::string pipeline = "pipeline '" + word(render.pipeline) + "' ";
+  if (!draws_slices(render.pipeline))
+    refuse("is about slices; " + pipeline + "samples shells by itself: set render.proxy to planes");
+  if (render.pipeline == Pipeline::tessellated || render.pipeline == Pipeline::fixed_function)
+    refuse("finds each sample at its fragment, and " + pipeline +
+           "looks where the corners of planes say; use slices, axis, fragment or grid");
+  if (scene.camera.projection == ProjectionName::orthographic)
+    refuse(
+        "are spheres about the eye, which camera.projection orthographic does not have: its planes are its "
+        "shells; set camera.projection to perspective or render.proxy to planes");
+  if (render.classification == Classification::pre)
+    refuse("looks the value up at each fragment; set render.classification to post");
+  if (render.tiles != std::array<std::size_t, 3>{1, 1, 1})
+    refuse("crosses tiles at each fragment, and triangles would have to be cut there; set render.tiles to "
+           "[1,1,1]");
+  if (render.mode == Mode::iso || render.jitter > 0)
+    refuse(
+        "are not moved along their rays, as mode 'iso' and render.jitter ask for; set render.proxy to planes "
+        "or take pipeline rays");
+  if (!scene.planes.empty())
+    refuse("has no depth of a polygon for planes to stop; remove planes or set render.proxy to planes");
+  if (scene.overlay.stack != 0)
+    refuse("has no flat slices for overlay.stack to show; set it to 0 or render.proxy to planes");
 }
 
 /// Where Cohen's effects can be drawn.
@@ -471,6 +536,8 @@ void validate_several(const Scene& scene) {
   }
   if (render.classification == Classification::pre)
     refuse("are combined after classification; set render.classification to post");
+  if (render.classification == Classification::preintegrated)
+    refuse("have no one pair of values for a segment; set render.classification to post");
   if (render.tiles != std::array<std::size_t, 3>{1, 1, 1} || render.levels != 1)
     refuse("are held in one texture each; set render.tiles to [1,1,1] and render.levels to 1");
   if (render.footprint == Footprint::mip)
@@ -515,6 +582,16 @@ void validate_shapes(const Scene& scene) {
   }
   if (render.modulate_by_gradient)
     throw UsageError("transfer.shapes follow the gradient themselves; remove render.modulate_by_gradient");
+  if (transfer.window || transfer.level) {
+    throw UsageError(
+        "transfer.window and transfer.level stretch a function of values only; remove them, or give "
+        "transfer.points for transfer.shapes");
+  }
+  if (scene.overlay.legend) {
+    throw UsageError(
+        "overlay.legend shows a function of values only; set it to false, or give transfer.points "
+        "for transfer.shapes");
+  }
 }
 
 void validate_placement(const Placement& placement) {
@@ -643,11 +720,14 @@ void validate(const Scene& scene) {
   validate_render(scene.render);
   if (scene.render.classification == Classification::pre)
     validate_pre_classification(scene.render, scene.camera);
+  if (scene.render.classification == Classification::preintegrated)
+    validate_preintegrated(scene);
   if (scene.light.direction && glm::length(*scene.light.direction) == 0) {
     throw UsageError("light.direction is the zero vector; give a direction");
   }
   validate(scene.overlay);
   validate_annotations(scene);
+  validate_shells(scene);
   validate_warps(scene);
   validate_effects(scene);
   validate_bricks(scene);

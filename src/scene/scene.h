@@ -66,6 +66,8 @@ enum class Mode { dvr, mip, minip, average, xray, iso, two_level };
 /// What a ray's run through one object of a two-level picture becomes.
 enum class LabelMode { dvr, mip, xray };
 enum class Order { back_to_front, front_to_back };
+/// What slices are: planes, or under perspective shells about the eye, whose samples are those of rays.
+enum class Proxy { planes, shells };
 enum class OpacityCorrection { fragment, frame, none };
 enum class Shading { none, diffuse, phong, tone };
 /// `prefiltered`: central differences of a Gaussian copy; `precomputed`: central differences at voxels,
@@ -75,8 +77,9 @@ enum class Gradient { forward, central, prefiltered, precomputed };
 enum class GradientSpace { data, object };
 /// Of the Gaussian copy, as a share of the volume's voxels on each axis.
 enum class GradientResolution { full, half, quarter };
-/// `pre`: voxels become colours of 8 bits before they are interpolated.
-enum class Classification { post, pre };
+/// `pre`: voxels become colours of 8 bits before they are interpolated; `preintegrated`: samples stand for
+/// segments (Engel, Kraus and Ertl 2001).
+enum class Classification { post, pre, preintegrated };
 enum class Filter { nearest, linear, linear_exact, cubic };
 /// `mip`: samples read the level of a mip pyramid that their spacing in the data asks for (docs/pipeline.md).
 enum class Footprint { point, mip };
@@ -102,6 +105,7 @@ struct RenderSettings {
   std::size_t jitter_seed = 1; ///< of the pixels' offsets
   double spacing = 1;          ///< in units of h
   Order order = Order::back_to_front;
+  Proxy proxy = Proxy::planes;
   OpacityCorrection opacity_correction = OpacityCorrection::fragment;
   Shading shading = Shading::none;
   Gradient gradient = Gradient::central;

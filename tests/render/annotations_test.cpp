@@ -248,5 +248,9 @@ TEST_CASE("annotations that would be wrong are refused by name") {
   CHECK(has(message(R"({"overlay":{"legend":true},"render":{"size":[100,100]},
                         "volumes":[{"phantom":"ball"},{"phantom":"box"}]})"),
             "2 volume"));
+  const std::string shapes = R"("shapes":[{"value":[0,1,2,3],"gradient":[0,1,2,3]}])";
+  CHECK(has(message(R"({"overlay":{"legend":true},"transfer":{)" + shapes + "}}"), "overlay.legend"));
+  CHECK(has(message(R"({"transfer":{"window":5,)" + shapes + "}}"), "transfer.window"));
+  CHECK(message(R"({"transfer":{)" + shapes + "}}").empty());
   CHECK(message(R"({"overlay":{"scale_bar":true,"labels":true},"render":{"mode":"xray"}})").empty());
 }

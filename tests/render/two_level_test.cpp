@@ -325,6 +325,7 @@ TEST_CASE("what two-level rendering cannot do is refused by name") {
   refused(volume + R"("labels": [{"label": 3, "transfer": {"preset": "fog", "points": [[0, 1, 1, 1, 1]]}}]})",
           "labels[0].transfer.preset and transfer.points");
   refused(volume + R"("render": {"classification": "pre"}})", "classification 'pre'");
+  refused(volume + R"("render": {"classification": "preintegrated"}})", "classification 'preintegrated'");
   refused(volume + R"("render": {"tiles": [2, 1, 1]}})", "render.tiles");
   refused(volume + R"("render": {"footprint": "mip"}})", "render.footprint");
   refused(volume + R"("render": {"pipeline": "fixed-function"}})", "draws mode 'dvr' only");

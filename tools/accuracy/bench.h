@@ -89,5 +89,6 @@ void axis_section(const Bench& bench);
 void gradient_section(const Bench& bench);
 void footprint_section(const Bench& bench);
 void grid_section(const Bench& bench);
+void preintegrated_section(const Bench& bench);
 
 } // namespace slicelens::accuracy

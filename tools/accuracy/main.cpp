@@ -29,6 +29,7 @@ const std::vector<Section>& sections() {
                                             {"gradients", gradient_section},
                                             {"footprint", footprint_section},
                                             {"grids", grid_section},
+                                            {"preintegrated", preintegrated_section},
                                             {"vessels", vessel_section}};
   return list;
 }
@@ -76,7 +77,7 @@ int main(int argc, char** argv) {
       ->type_name("DIR");
   app.add_option("sections", wanted, "which; all by default")
       ->check(CLI::IsMember({"closed-forms", "parity", "perspective", "precision", "opacity", "axis",
-                             "gradients", "footprint", "grids", "vessels"}));
+                             "gradients", "footprint", "grids", "preintegrated", "vessels"}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

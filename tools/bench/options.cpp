@@ -68,6 +68,12 @@ std::vector<Variant> variants() {
          perspective(s);
          s.render.opacity_correction = OpacityCorrection::frame;
        }},
+      {"perspective, shells",
+       [=](S& s) {
+         perspective(s);
+         s.render.proxy = Proxy::shells;
+       }},
+      {"pre-integrated", [](S& s) { s.render.classification = Classification::preintegrated; }},
       {"MIP", [](S& s) { s.render.mode = Mode::mip; }},
       {"X-ray", [](S& s) { s.render.mode = Mode::xray; }},
       {"rays", [](S& s) { s.render.pipeline = Pipeline::rays; }},
@@ -85,6 +91,11 @@ std::vector<Variant> variants() {
        [=](S& s) {
          s.render.pipeline = Pipeline::rays;
          perspective(s);
+       }},
+      {"rays, pre-integrated",
+       [](S& s) {
+         s.render.pipeline = Pipeline::rays;
+         s.render.classification = Classification::preintegrated;
        }},
       {"rays, diffuse, central gradient",
        [=](S& s) {
