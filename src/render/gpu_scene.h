@@ -44,8 +44,8 @@ VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type);
 GLenum texture_filter(Filter filter);
 
 /// Uploads both. Integers are stored so that they come back exactly where the format has the bits; otherwise
-/// values are scaled to the format over the volume's range. Non-finite voxels become the smallest finite
-/// value. Throws LimitError where the driver has no room.
+/// values are scaled to the format over the volume's range. Voxels without a value have been filled before
+/// (volume/missing.h). Throws LimitError where the driver has no room.
 GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Progress& progress);
 
 } // namespace slicelens

@@ -20,7 +20,8 @@ namespace slicelens {
 inline constexpr std::size_t classified_voxel_bytes = 4;
 
 /// The colours of the voxels first, first + 1, … (x fastest, then y, then z) that fill `out`, whose size is
-/// classified_voxel_bytes each. Non-finite voxels count as the smallest finite value. Multithreaded.
+/// classified_voxel_bytes each. Voxels without a value have been filled before
+/// (volume/missing.h). Multithreaded.
 void classify_voxels(const PreparedScene& prepared, std::size_t first, std::span<std::byte> out);
 
 /// The whole volume.
