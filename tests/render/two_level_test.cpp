@@ -284,17 +284,18 @@ TEST_CASE("two-level pictures are the same by slices, rays and the reference") {
   check({R"(warp={"kind": "bifocal", "focus": [[0.3, 0.6], [0.3, 0.6], [0.3, 0.6]]})",
          "render.axis_texels=4096"},
         "axis");
-  check({"render.modulate_by_gradient=20"}, "slices");
+  // Opacities by the gradient amplify the difference of a driver's own filter (softpipe: 53 dB).
+  check({"render.modulate_by_gradient=20", "render.filter=linear-exact"}, "slices");
 }
 
 TEST_CASE("local modes are the same by rays and the reference") {
   gl::Context context = test_context();
   const PreparedScene frog = prepare_phantoms(kFrog);
-  for (const std::vector<std::string>& keys :
-       std::vector<std::vector<std::string>>{{},
-                                             {"render.shading=diffuse", "render.filter=linear-exact"},
-                                             {R"(warp={"kind": "twist", "angle": 40})"},
-                                             {"render.modulate_by_gradient=20"}}) {
+  for (const std::vector<std::string>& keys : std::vector<std::vector<std::string>>{
+           {},
+           {"render.shading=diffuse", "render.filter=linear-exact"},
+           {R"(warp={"kind": "twist", "angle": 40})"},
+           {"render.modulate_by_gradient=20", "render.filter=linear-exact"}}) {
     std::vector<std::string> all = keys;
     all.insert(all.end(),
                {"render.pipeline=rays", "labels[4].mode=mip", "labels[1].mode=xray", "labels[3].mode=mip"});
