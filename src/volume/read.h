@@ -35,8 +35,8 @@ struct VolumeSource {
 /// means: scl_slope (NIfTI) and rescale slope and intercept (DICOM) are applied. All 1 to 4 components are
 /// kept unless `component` names one.
 ///
-/// `format` is "NRRD", "MetaImage", "NIfTI" (RAS becomes LPS), "DICOM", "VTK", "VTI", "PNG stack", "TIFF stack",
-/// "JPEG stack" or "raw"; docs/volumes.md says what of each is read.
+/// `format` is "NRRD", "MetaImage", "NIfTI" (RAS becomes LPS), "DICOM", "VTK", "VTI", "PNG stack", "TIFF
+/// stack", "JPEG stack" or "raw"; docs/volumes.md says what of each is read.
 ///
 /// Throws FileError for a file that is damaged, truncated, unsupported or whose header claims more than its
 /// files can hold (before anything of the claimed size is allocated), UsageError for a `frame`, `component`,

@@ -1,5 +1,5 @@
-// Debian's ITK was configured for GCC alone and refuses every other compiler in this header of its own. Clang knows what GCC
-// 12 knows of what it asks for.
+// Debian's ITK was configured for GCC alone and refuses every other compiler in this header of its own. Clang
+// knows what GCC 12 knows of what it asks for.
 #pragma once
 
 #pragma push_macro("__clang__")

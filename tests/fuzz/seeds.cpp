@@ -1,6 +1,6 @@
 // Writes the files that the fuzz targets start from: fuzz_seeds FOLDER makes FOLDER/TARGET/NAME. Each is
 // whole and small, so that single changed bytes reach deep into the readers.
-#include <zlib.h>
+#include "deflated.h"
 
 #include <cstdint>
 #include <cstring>
@@ -10,6 +10,7 @@
 #include <vector>
 
 namespace fs = std::filesystem;
+using slicelens::deflated;
 
 namespace {
 
@@ -30,20 +31,6 @@ std::string bytes_of(const std::vector<T>& numbers) {
 template <class T>
 void put(std::string& bytes, std::size_t offset, T value) {
   std::memcpy(bytes.data() + offset, &value, sizeof value);
-}
-
-std::string deflated(const std::string& bytes, bool gzip) {
-  z_stream stream{};
-  deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, gzip ? 31 : 15, 8, Z_DEFAULT_STRATEGY);
-  std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())) + 64, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
 }
 
 const std::string& voxels() {

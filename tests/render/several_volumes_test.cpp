@@ -142,9 +142,10 @@ TEST_CASE("opacities of two boxes in one place add up as their formulas say") {
   const std::string first = slab("1, 0, 0", "{}");
   const std::string second = slab("0, 1, 0", "{}");
   const auto alpha = [&](const std::string& volumes, const std::string& how) {
-    return alpha_at_middle(prepare_all(R"({"volumes": [)" + volumes + R"(], "combine": ")" + how +
-                                       R"(", "render": {"size": [9, 9], "spacing": 0.5, "background": [0, 0, 0, 0]}})"),
-                           context);
+    return alpha_at_middle(
+        prepare_all(R"({"volumes": [)" + volumes + R"(], "combine": ")" + how +
+                    R"(", "render": {"size": [9, 9], "spacing": 0.5, "background": [0, 0, 0, 0]}})"),
+        context);
   };
   // Orthographic, along y through 16 voxels: one reference length. 1 − (1 − a)^1, a being the combined
   // opacity.

@@ -170,8 +170,9 @@ TEST_CASE("grids of warps on the GPU are the CPU's within 1e-5, two of them in a
         // Slopes of at most 3: the second map carries the first one's rounding on.
         const double strength = lens_cases::random_in(0.5, 2);
         const WarpMap fisheye = map_of(Warp(Fisheye{glm::dvec3(0.5), glm::dvec3(strength)}), space, {});
-        // At most 32 nodes along x and y: softpipe's filter reads wrong texels where a cell of a larger 3D texture
-        // crosses the border of two of its 32-texel tiles (the tile beside and the next layer share a cache entry).
+        // At most 32 nodes along x and y: softpipe's filter reads wrong texels where a cell of a larger 3D
+        // texture crosses the border of two of its 32-texel tiles (the tile beside and the next layer share a
+        // cache entry).
         const std::array<std::size_t, 3> size = {static_cast<std::size_t>(*rc::gen::inRange(2, 33)), 17, 33};
         maps.emplace_back(GridMap{
             std::make_shared<const MapGrid>(make_map_grid({fisheye}, size, glm::dvec3(0), space.size))});

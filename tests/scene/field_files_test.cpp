@@ -2,10 +2,10 @@
 #include "catch.h"
 #include "core/errors.h"
 #include "scene/load_warps.h"
+#include "temporary_folder.h"
 #include "volume/write.h"
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
@@ -15,19 +15,6 @@ using namespace slicelens;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "slicelens fields XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() {
-    std::error_code error;
-    fs::remove_all(path, error);
-  }
-};
 
 /// Vectors d(world) on voxels that are turned and of unequal edges, as 3 floats each.
 template <class Displacement>
@@ -90,16 +77,16 @@ void write_nifti(const fs::path& path, int intent, const glm::vec3& vector) {
 
 TEST_CASE("a constant field in world units shifts a turned volume of other voxels, from both formats and "
           "both ways") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const glm::dvec3 shift(2, -1, 3);
   const Volume volume = vector_volume([&](const glm::dvec3&) { return shift; });
   const BoxSpace space = box_space(data_box());
   for (const char* name : {"d.nrrd", "d.mha"}) {
-    write_volume(volume, folder.path / name);
+    write_volume(volume, folder.path() / name);
     Field field;
     field.file = name;
     field.loaded = std::make_shared<const DisplacementField>(
-        read_field(folder.path / name, FieldVectors::automatic, {}));
+        read_field(folder.path() / name, FieldVectors::automatic, {}));
     for (const FieldDirection direction : {FieldDirection::inverse, FieldDirection::forward}) {
       field.direction = direction;
       const GridMap map = field_map(field, space);
@@ -119,10 +106,10 @@ TEST_CASE("a field is trilinear between its voxels, theirs up to its faces, and 
   const auto linear = [](const glm::dvec3& w) {
     return glm::dvec3(0.1 * w.x + 1, 0.05 * w.z, -0.1 * w.y + 0.02 * w.x);
   };
-  const Folder folder;
+  const TemporaryFolder folder;
   const Volume volume = vector_volume(linear);
-  write_volume(volume, folder.path / "d.nrrd");
-  const DisplacementField field = read_field(folder.path / "d.nrrd", FieldVectors::lps, {});
+  write_volume(volume, folder.path() / "d.nrrd");
+  const DisplacementField field = read_field(folder.path() / "d.nrrd", FieldVectors::lps, {});
   const glm::dmat4 index_from_world = glm::inverse(field.world_from_index);
   const auto world = [&](const glm::dvec3& index) {
     return volume.origin + volume.direction * (volume.spacing * index);
@@ -138,16 +125,16 @@ TEST_CASE("a field is trilinear between its voxels, theirs up to its faces, and 
 }
 
 TEST_CASE("a forward field is inverted: round trips within a thousandth of the volume") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto waves = [](const glm::dvec3& w) {
     return 1.5 * glm::dvec3(std::sin(w.y / 6), std::cos(w.z / 5), std::sin(w.x / 7 + 1));
   };
-  write_volume(vector_volume(waves), folder.path / "d.nrrd");
+  write_volume(vector_volume(waves), folder.path() / "d.nrrd");
   Field field;
   field.file = "d.nrrd";
   field.direction = FieldDirection::forward;
   field.loaded = std::make_shared<const DisplacementField>(
-      read_field(folder.path / "d.nrrd", FieldVectors::automatic, {}));
+      read_field(folder.path() / "d.nrrd", FieldVectors::automatic, {}));
   const BoxSpace space = box_space(data_box());
   const FieldReport report = field_report(field, space);
   INFO("scattered " << report.scattered_rms << ", refined " << report.refined_rms << ", largest "
@@ -170,10 +157,10 @@ TEST_CASE("a forward field is inverted: round trips within a thousandth of the v
 }
 
 TEST_CASE("vectors of NIfTI are along RAS for intent 1006, along LPS for 1007, or as the key says") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto first = [&](int intent, FieldVectors vectors) {
-    write_nifti(folder.path / "d.nii", intent, {1, 2, 3});
-    const DisplacementField field = read_field(folder.path / "d.nii", vectors, {});
+    write_nifti(folder.path() / "d.nii", intent, {1, 2, 3});
+    const DisplacementField field = read_field(folder.path() / "d.nii", vectors, {});
     REQUIRE(field.vectors.size() == 512);
     CHECK(glm::dvec3(field.world_from_index[0]) == glm::dvec3(-1, 0, 0)); // the geometry is RAS in any case
     return field.vectors[100];
@@ -185,30 +172,30 @@ TEST_CASE("vectors of NIfTI are along RAS for intent 1006, along LPS for 1007, o
 }
 
 TEST_CASE("broken fields are refused: components, NaN, truncation, places") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto still = [](const glm::dvec3&) { return glm::dvec3(0); };
-  write_volume(vector_volume(still, 2), folder.path / "two.nrrd");
-  CHECK_THROWS_WITH(read_field(folder.path / "two.nrrd", FieldVectors::automatic, {}),
+  write_volume(vector_volume(still, 2), folder.path() / "two.nrrd");
+  CHECK_THROWS_WITH(read_field(folder.path() / "two.nrrd", FieldVectors::automatic, {}),
                     Catch::Contains("2 component"));
-  write_volume(vector_volume(still, 1), folder.path / "one.mha");
-  CHECK_THROWS_WITH(read_field(folder.path / "one.mha", FieldVectors::automatic, {}),
+  write_volume(vector_volume(still, 1), folder.path() / "one.mha");
+  CHECK_THROWS_WITH(read_field(folder.path() / "one.mha", FieldVectors::automatic, {}),
                     Catch::Contains("has 3"));
   Volume nan = vector_volume(still);
   reinterpret_cast<float*>(nan.voxels.data())[77] = std::numeric_limits<float>::quiet_NaN();
-  write_volume(nan, folder.path / "nan.nrrd");
-  CHECK_THROWS_WITH(read_field(folder.path / "nan.nrrd", FieldVectors::automatic, {}),
+  write_volume(nan, folder.path() / "nan.nrrd");
+  CHECK_THROWS_WITH(read_field(folder.path() / "nan.nrrd", FieldVectors::automatic, {}),
                     Catch::Contains("NaN"));
-  write_volume(vector_volume(still), folder.path / "cut.mha");
-  fs::resize_file(folder.path / "cut.mha", fs::file_size(folder.path / "cut.mha") - 1000);
-  CHECK_THROWS_AS(read_field(folder.path / "cut.mha", FieldVectors::automatic, {}), FileError);
-  CHECK_THROWS_AS(read_field(folder.path / "none.nrrd", FieldVectors::automatic, {}), FileError);
+  write_volume(vector_volume(still), folder.path() / "cut.mha");
+  fs::resize_file(folder.path() / "cut.mha", fs::file_size(folder.path() / "cut.mha") - 1000);
+  CHECK_THROWS_AS(read_field(folder.path() / "cut.mha", FieldVectors::automatic, {}), FileError);
+  CHECK_THROWS_AS(read_field(folder.path() / "none.nrrd", FieldVectors::automatic, {}), FileError);
   Volume far = vector_volume(still);
   far.origin += glm::dvec3(1000, 0, 0);
-  write_volume(far, folder.path / "far.nrrd");
+  write_volume(far, folder.path() / "far.nrrd");
   Field field;
   field.file = "far.nrrd";
   field.loaded = std::make_shared<const DisplacementField>(
-      read_field(folder.path / "far.nrrd", FieldVectors::automatic, {}));
+      read_field(folder.path() / "far.nrrd", FieldVectors::automatic, {}));
   CHECK_THROWS_WITH(field_map(field, box_space(data_box())),
                     Catch::Contains("far.nrrd") && Catch::Contains("beside"));
   CHECK_THROWS_WITH(validate(Field{}), Catch::Contains("file"));

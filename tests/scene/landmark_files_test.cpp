@@ -4,8 +4,7 @@
 #include "scene/landmark_files.h"
 #include "scene/load_warps.h"
 #include "scene/scene_json.h"
-
-#include <unistd.h>
+#include "temporary_folder.h"
 
 #include <filesystem>
 #include <fstream>
@@ -15,31 +14,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder of its own for each test, removed at the end.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "slicelens landmarks XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() {
-    std::error_code error;
-    fs::remove_all(path, error);
-  }
-  fs::path put(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name, std::ios::binary) << text;
-    return path / name;
-  }
-};
-
 const std::string fcsv_columns =
     "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n";
 
 } // namespace
 
 TEST_CASE("pairs of landmarks from JSON and CSV") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::vector<LandmarkPair> expected = {{glm::dvec3(1, 2, 3), glm::dvec3(4, 5, 6)},
                                               {glm::dvec3(-1, 0.5, 1e2), glm::dvec3(0, 0, 0)}};
   CHECK(read_landmark_pairs(folder.put("a.json", "[[[1,2,3],[4,5,6]], // moved\n [[-1,0.5,1e2],[0,0,0]]]")) ==
@@ -50,7 +31,7 @@ TEST_CASE("pairs of landmarks from JSON and CSV") {
 }
 
 TEST_CASE("points from JSON, CSV, and 3D Slicer's lists, turned to LPS") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::vector<glm::dvec3> lps = {glm::dvec3(1, 2, 3), glm::dvec3(-4, 5, 6)};
   CHECK(read_points(folder.put("p.json", "[[1,2,3],[-4,5,6]]"), false) == lps);
   CHECK(read_points(folder.put("p.csv", "x,y,z\n1,2,3\n-4,5,6\n"), true) == lps);
@@ -82,11 +63,11 @@ TEST_CASE("points from JSON, CSV, and 3D Slicer's lists, turned to LPS") {
       Catch::Contains("IJK"));
   CHECK_THROWS_WITH(read_points(folder.put("u.mrk.json", markups("", "[1,2,3]", "null")), false),
                     Catch::Contains("control point 2"));
-  CHECK_THROWS_WITH(read_points(folder.path / "l.fcsv", true), Catch::Contains("world"));
+  CHECK_THROWS_WITH(read_points(folder.path() / "l.fcsv", true), Catch::Contains("world"));
 }
 
 TEST_CASE("broken files of landmarks are refused with the place") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto pairs = [&](const char* name, const char* text) {
     return read_landmark_pairs(folder.put(name, text));
   };
@@ -103,7 +84,7 @@ TEST_CASE("broken files of landmarks are refused with the place") {
   CHECK_THROWS_WITH(pairs("a.json", "[[[1,2,3],[4,5,\"6\"]]]"), Catch::Contains("pair 1's target"));
   CHECK_THROWS_WITH(pairs("a.fcsv", ""), Catch::Contains("warp.source"));
   CHECK_THROWS_WITH(pairs("a.xyz", ""), Catch::Contains(".csv"));
-  CHECK_THROWS_AS(read_landmark_pairs(folder.path / "none.csv"), FileError);
+  CHECK_THROWS_AS(read_landmark_pairs(folder.path() / "none.csv"), FileError);
   CHECK_THROWS_AS(read_points(folder.put("b.mrk.json", "[1]"), false), FileError);
   CHECK_THROWS_AS(read_points(folder.put("b.mrk.json", R"({"markups":[{}]})"), false), FileError);
   CHECK_THROWS_WITH(read_points(folder.put("b.fcsv", "# CoordinateSystem = LPS\n1,2,3\n"), false),
@@ -111,20 +92,20 @@ TEST_CASE("broken files of landmarks are refused with the place") {
 }
 
 TEST_CASE("a scene's landmarks are read from its folder; lists must be as long as one another") {
-  const Folder folder;
+  const TemporaryFolder folder;
   folder.put("s.csv", "0,0,0\n1,0,0\n0,1,0\n0,0,1\n");
   folder.put("t.csv", "0,0,0\n1,0,0\n0,1,0\n0,0,2\n");
   folder.put("short.csv", "0,0,0\n");
   Scene scene = scene_from_json(R"({"warp":{"kind":"landmarks","source":"s.csv","target":"t.csv"}})", "test");
-  load_warp_files(scene, {folder.path}, {});
+  load_warp_files(scene, {folder.path()}, {});
   const auto& pairs = *std::get<Landmarks>(scene.warp[0]).loaded;
   REQUIRE(pairs.size() == 4);
   CHECK(pairs[3] == LandmarkPair{glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 2)});
   scene = scene_from_json(R"({"warp":{"kind":"landmarks","source":"s.csv","target":"short.csv"}})", "test");
-  CHECK_THROWS_WITH(load_warp_files(scene, {folder.path}, {}),
+  CHECK_THROWS_WITH(load_warp_files(scene, {folder.path()}, {}),
                     Catch::Contains("4 points") && Catch::Contains("1;"));
   scene = scene_from_json(R"({"warp":{"kind":"landmarks","file":"none.csv"}})", "test");
-  CHECK_THROWS_AS(load_warp_files(scene, {folder.path}, {}), FileError);
+  CHECK_THROWS_AS(load_warp_files(scene, {folder.path()}, {}), FileError);
   const std::string text =
       R"({"warp":{"kind":"landmarks","pairs":[[[0,0,0],[0,0,0]],[[1,0,0],[1,0,0]],[[0,1,0],[0,1,0]],[[0,0,1],[0,0,2.5]]]}})";
   const Scene inline_pairs = scene_from_json(scene_to_json(scene_from_json(text, "test")), "again");

@@ -7,9 +7,8 @@
 #include "scene/load.h"
 #include "scene/scene_json.h"
 #include "scene/transfer_files.h"
+#include "temporary_folder.h"
 #include "volume/phantom.h"
-
-#include <unistd.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -20,23 +19,6 @@ using namespace slicelens;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "slicelens transfer XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() {
-    std::error_code error;
-    fs::remove_all(path, error);
-  }
-  fs::path put(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name, std::ios::binary) << text;
-    return path / name;
-  }
-};
 
 ReadTransfer read(const fs::path& path, const std::string& map = "") {
   return transfer_of(read_transfer_file(path, map), path);
@@ -100,25 +82,25 @@ const std::string plain_functions =
 } // namespace
 
 TEST_CASE("every preset survives every format that holds points, exactly") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const PresetInfo& info : presets()) {
     INFO(info.name);
     const TransferFunction original = preset(info.name, -17.3, 1001.7);
     for (const char* name : {"a.json", "a.vp", "a.vp.json"}) {
       INFO(name);
-      CHECK(write_transfer_file(folder.path / name, {original}).empty());
-      check_same(read(folder.path / name).transfer, original);
+      CHECK(write_transfer_file(folder.path() / name, {original}).empty());
+      check_same(read(folder.path() / name).transfer, original);
     }
   }
 }
 
 TEST_CASE("files that were written are written again as the same bytes") {
-  const Folder folder;
+  const TemporaryFolder folder;
   TransferToWrite what{preset("CT-Muscle")};
   what.transfer.unit_distance = 0.75;
   what.display = SlicerDisplay{2, true, .11, .62, .33, 44, {{0, .5}, {90, 1}}};
-  CHECK(write_transfer_file(folder.path / "a.vp.json", what).empty());
-  const TransferFile again = read_transfer_file(folder.path / "a.vp.json");
+  CHECK(write_transfer_file(folder.path() / "a.vp.json", what).empty());
+  const TransferFile again = read_transfer_file(folder.path() / "a.vp.json");
   const ReadTransfer function = transfer_of(again, "a.vp.json");
   CHECK(function.transfer.unit_distance == 0.75);
   CHECK(again.display->power == 44);
@@ -126,18 +108,19 @@ TEST_CASE("files that were written are written again as the same bytes") {
         "not taken: gradient opacity, interpolation (render.filter cubic), shading "
         "(render.shading phong, light.ambient 0.11, light.diffuse 0.62, light.specular 0.33, "
         "light.power 44)");
-  CHECK(write_transfer_file(folder.path / "b.vp.json", {function.transfer, again.display}).empty());
-  CHECK(text_of(folder.path / "a.vp.json") == text_of(folder.path / "b.vp.json"));
-  CHECK(write_transfer_file(folder.path / "a.vp", what) == "the format does not hold the unit distance 0.75");
-  const TransferFile text = read_transfer_file(folder.path / "a.vp");
-  (void)write_transfer_file(folder.path / "b.vp", {transfer_of(text, "a.vp").transfer, text.display});
-  CHECK(text_of(folder.path / "a.vp") == text_of(folder.path / "b.vp"));
-  CHECK(write_transfer_file(folder.path / "a.json", what) ==
+  CHECK(write_transfer_file(folder.path() / "b.vp.json", {function.transfer, again.display}).empty());
+  CHECK(text_of(folder.path() / "a.vp.json") == text_of(folder.path() / "b.vp.json"));
+  CHECK(write_transfer_file(folder.path() / "a.vp", what) ==
+        "the format does not hold the unit distance 0.75");
+  const TransferFile text = read_transfer_file(folder.path() / "a.vp");
+  (void)write_transfer_file(folder.path() / "b.vp", {transfer_of(text, "a.vp").transfer, text.display});
+  CHECK(text_of(folder.path() / "a.vp") == text_of(folder.path() / "b.vp"));
+  CHECK(write_transfer_file(folder.path() / "a.json", what) ==
         "the format does not hold the unit distance 0.75, light, shading and gradient opacity");
 }
 
 TEST_CASE("3D Slicer's own example") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path path = folder.put("CT-Bone.vp", slicer_example);
   const TransferFile file = read_transfer_file(path);
   CHECK(file.name == "CT-Bone");
@@ -158,7 +141,7 @@ TEST_CASE("3D Slicer's own example") {
 }
 
 TEST_CASE("ParaView's maps: by name, in other spaces, without opacity") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path path = folder.put("maps.json", paraview_example);
   const ReadTransfer two = read(path, "Two");
   CHECK(two.note.empty());
@@ -182,7 +165,7 @@ TEST_CASE("ParaView's maps: by name, in other spaces, without opacity") {
 }
 
 TEST_CASE("ParaView's XML") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path path = folder.put(
       "maps.xml",
       "<ColorMaps><ColorMap name=\"Consistency\" space=\"RGB\">"
@@ -202,23 +185,23 @@ TEST_CASE("ParaView's XML") {
 }
 
 TEST_CASE("tables: rows over the data's range, and what is lost between them") {
-  const Folder folder;
+  const TemporaryFolder folder;
   // Rows on which every point lies lose nothing but the values.
   TransferToWrite exact{{{{0, 0, 0, 0, 0}, {2, 1, .5, .25, 1}, {4, 0, 1, 0, .5}}, {}, ""}};
   exact.rows_range = {0, 4};
   exact.rows = 5;
-  CHECK(write_transfer_file(folder.path / "a.1dt", exact) ==
+  CHECK(write_transfer_file(folder.path() / "a.1dt", exact) ==
         "the format does not hold the values of its 5 rows, from 0 to 4");
-  CHECK(text_of(folder.path / "a.1dt") ==
+  CHECK(text_of(folder.path() / "a.1dt") ==
         "5\n0 0 0 0\n0.5 0.25 0.125 0.5\n1 0.5 0.25 1\n0.5 0.75 0.125 0.75\n0 1 0 0.5\n");
-  const TransferFile file = read_transfer_file(folder.path / "a.1dt");
+  const TransferFile file = read_transfer_file(folder.path() / "a.1dt");
   CHECK(file.rows);
   const ReadTransfer function = transfer_of(file, "a.1dt", exact.rows_range);
   for (const double value : {-1.0, 0.0, 0.7, 2.0, 3.3, 9.0})
     CHECK(evaluate(function.transfer, value) == evaluate(exact.transfer, value));
   // Four rows miss the peak: at value 2 the table has the mean of rows 4/3 and 8/3, (2/3, …), one third low.
   exact.rows = 4;
-  CHECK(write_transfer_file(folder.path / "b.1dt", exact).find("(off by at most 0.33333") !=
+  CHECK(write_transfer_file(folder.path() / "b.1dt", exact).find("(off by at most 0.33333") !=
         std::string::npos);
   // Over data: 256 rows of 8-bit data are its values.
   Volume volume = make_phantom("engine", {8, 8, 4});
@@ -227,7 +210,7 @@ TEST_CASE("tables: rows over the data's range, and what is lost between them") {
 }
 
 TEST_CASE("damaged transfer functions get one line") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto json = [&](const std::string& text) { return problem(folder.put("x.json", text)); };
   CHECK(json("[{").find("not valid JSON at line 1") == 0);
   CHECK(json("[{\"RGBPoints\": [0, 0, 0]}]") ==
@@ -279,7 +262,7 @@ TEST_CASE("damaged transfer functions get one line") {
 }
 
 TEST_CASE("files with any bytes changed are read or refused, never worse") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const TransferToWrite what{preset("CT-Muscle")};
   std::vector<std::pair<std::string, std::string>> samples = {
       {"x.vp", slicer_example},
@@ -287,8 +270,8 @@ TEST_CASE("files with any bytes changed are read or refused, never worse") {
       {"x.xml", "<ColorMap space=\"HSV\"><Point x=\"-1\" o=\"0.5\" r=\"0\" g=\"0\" b=\"0\"/><Point x=\"1\" "
                 "o=\"1\" r=\"1\" g=\"0\" b=\"0\"/></ColorMap>"},
       {"x.1dt", "3\n0 0 0 0\n0.5 0.25 0.125 0.5\n1 0.5 0.25 1\n"}};
-  (void)write_transfer_file(folder.path / "m.vp.json", what);
-  samples.emplace_back("x.vp.json", text_of(folder.path / "m.vp.json"));
+  (void)write_transfer_file(folder.path() / "m.vp.json", what);
+  samples.emplace_back("x.vp.json", text_of(folder.path() / "m.vp.json"));
   std::uint32_t state = 12345; // Numerical Recipes' generator: the same bytes on every machine
   const auto next = [&](std::size_t below) {
     state = state * 1664525U + 1013904223U;
@@ -319,7 +302,7 @@ TEST_CASE("files with any bytes changed are read or refused, never worse") {
 }
 
 TEST_CASE("a scene takes its transfer function from a file, and then stands alone") {
-  const Folder folder;
+  const TemporaryFolder folder;
   (void)folder.put("two.json", paraview_example);
   const Volume volume = make_phantom("engine", {8, 8, 4});
   std::vector<std::string> warnings;
@@ -328,7 +311,7 @@ TEST_CASE("a scene takes its transfer function from a file, and then stands alon
   Scene scene =
       scene_from_json(R"({"transfer": {"file": "two.json", "map": "Two", "range": [8, 208]}})", "scene");
   CHECK_THROWS_AS(transfer_of(scene, volume), UsageError); // not read yet
-  load_transfer_file(scene.transfer, volume, {folder.path}, progress);
+  load_transfer_file(scene.transfer, volume, {folder.path()}, progress);
   CHECK(warnings.empty());
   CHECK_FALSE(scene.transfer.file);
   check_same(transfer_of(scene, volume), {{{8, 0, 0, 0, .25}, {208, 1, .5, .25, .75}}, {}, ""});
@@ -336,14 +319,14 @@ TEST_CASE("a scene takes its transfer function from a file, and then stands alon
   // Data that lie beside all points are told how to be met.
   scene =
       scene_from_json(R"({"transfer": {"file": "two.json", "map": "Two", "range": [300, 400]}})", "scene");
-  load_transfer_file(scene.transfer, volume, {folder.path}, progress);
+  load_transfer_file(scene.transfer, volume, {folder.path()}, progress);
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].find("two.json: its points lie from 300 to 400, the data from 8 to") == 0);
   // A file's unit distance, unless the scene has its own.
   (void)folder.put("u.vp.json", vp_json("{\"shade\": false, \"scalarOpacityUnitDistance\": 2.5, " +
                                         plain_functions + "}"));
   scene = scene_from_json(R"({"transfer": {"file": "u.vp.json"}})", "scene");
-  load_transfer_file(scene.transfer, volume, {folder.path}, {});
+  load_transfer_file(scene.transfer, volume, {folder.path()}, {});
   CHECK(transfer_of(scene, volume).unit_distance == 2.5);
 }
 
@@ -409,7 +392,7 @@ std::string camera_problem(const fs::path& path) {
 } // namespace
 
 TEST_CASE("cameras of ParaView come back exactly") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const ReadCamera read = read_camera_file(folder.put("a.pvcc", camera_example));
   CHECK(read.ignored.empty());
   CHECK(*read.camera.position == glm::dvec3(7.25, -56.5, 6.125));
@@ -421,15 +404,15 @@ TEST_CASE("cameras of ParaView come back exactly") {
   CHECK(same.position == read.camera.position);
   CHECK(same.view_up == read.camera.view_up);
   CHECK(same.parallel_scale == read.camera.parallel_scale);
-  write_camera_file(folder.path / "b.pvcc", same);
-  const CameraSettings again = read_camera_file(folder.path / "b.pvcc").camera;
+  write_camera_file(folder.path() / "b.pvcc", same);
+  const CameraSettings again = read_camera_file(folder.path() / "b.pvcc").camera;
   CHECK(again.position == read.camera.position);
   CHECK(again.focal_point == read.camera.focal_point);
   CHECK(again.view_up == read.camera.view_up);
   CHECK(again.view_angle == read.camera.view_angle);
   CHECK(again.parallel_scale == read.camera.parallel_scale);
   CHECK(again.projection == read.camera.projection);
-  CHECK_THROWS_AS(write_camera_file(folder.path / "b.xml", same), UsageError);
+  CHECK_THROWS_AS(write_camera_file(folder.path() / "b.xml", same), UsageError);
 }
 
 TEST_CASE("a camera of angles and its explicit form show the same view") {
@@ -452,7 +435,7 @@ TEST_CASE("a camera of angles and its explicit form show the same view") {
 }
 
 TEST_CASE("damaged cameras get one line") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto camera = [&](const std::string& text) { return camera_problem(folder.put("x.pvcc", text)); };
   CHECK(camera("<PVCamera").find("is no XML: ") == 0);
   CHECK(camera("<ColorMap/>").find("has no <PVCameraConfiguration>") == 0);

@@ -7,6 +7,7 @@
 #include "study/axis_tables_page.h"
 #include "study/gnuplot.h"
 #include "study/plot.h"
+#include "temporary_folder.h"
 
 #include <unistd.h>
 
@@ -20,17 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace slicelens;
 using Catch::Matchers::Contains;
-
-/// An empty folder that is removed at the end.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "slicelens plot XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-};
 
 /// Sets an environment variable and puts it back.
 class Environment {
@@ -299,22 +289,22 @@ TEST_CASE("offsets are blue below, white at nothing, red above") {
 }
 
 TEST_CASE("a missing gnuplot is named with its package") {
-  const Folder empty;
-  const Environment path("PATH", empty.path.string());
+  const TemporaryFolder empty;
+  const Environment path("PATH", empty.path().string());
   const PlotPage page = one_panel({{0, 0}, {1, 1}});
   CHECK_THROWS_AS(draw_plot(page, PlotFormat::svg), FileError);
   CHECK_THROWS_WITH(draw_plot(page, PlotFormat::svg), Contains("apt-get install gnuplot-nox"));
 }
 
 TEST_CASE("a gnuplot that fails or says nothing is an error, and no temporary file is left") {
-  const Folder bin;
-  const Folder temporary;
-  const Environment temporary_folder("TMPDIR", temporary.path.string());
-  const fs::path program = bin.path / "gnuplot";
+  const TemporaryFolder bin;
+  const TemporaryFolder temporary;
+  const Environment temporary_folder("TMPDIR", temporary.path().string());
+  const fs::path program = bin.path() / "gnuplot";
   const auto message = [&](const std::string& body) {
     std::ofstream(program) << "#!/bin/sh\n" << body << "\n";
     fs::permissions(program, fs::perms::owner_all);
-    const Environment path("PATH", bin.path.string());
+    const Environment path("PATH", bin.path().string());
     try {
       run_gnuplot("plot x\n");
     } catch (const FileError& error) {
@@ -330,7 +320,7 @@ TEST_CASE("a gnuplot that fails or says nothing is an error, and no temporary fi
   CHECK(message("exit 1") == "gnuplot: failed: no reason given");
   CHECK(message(":") == "gnuplot: wrote nothing: no reason given");
   CHECK_THAT(message("kill -9 $$"), Contains("signal 9"));
-  CHECK(fs::is_empty(temporary.path));
+  CHECK(fs::is_empty(temporary.path()));
 }
 
 TEST_CASE("gnuplot's own error is told in one line") {
@@ -366,8 +356,8 @@ TEST_CASE("a PNG has the size that was asked for and the series' colour") {
   page.panels[0].series[0].rgb = 0xff0000;
   const std::string png = draw_plot(page, PlotFormat::png);
   CHECK(png == draw_plot(page, PlotFormat::png));
-  const Folder folder;
-  const fs::path file = folder.path / "plot.png";
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "plot.png";
   std::ofstream(file, std::ios::binary) << png;
   const Image image = read_image(file);
   CHECK(image.width == 480);

@@ -72,7 +72,8 @@ int main(int argc, char** argv) {
                "slicelens_bench");
   app.add_option("sections", options.sections,
                  "fill, options, lens2d, lens3d, axis, deform, grids, drag, phases; none: all")
-      ->check(CLI::IsMember({"fill", "options", "lens2d", "lens3d", "axis", "deform", "grids", "drag", "phases"}));
+      ->check(CLI::IsMember(
+          {"fill", "options", "lens2d", "lens3d", "axis", "deform", "grids", "drag", "phases"}));
   app.add_option("--volume", options.volumes, "volume files or folders for `phases`")->type_name("PATH");
   app.add_option("--edge", options.edge, "voxels on an edge of the phantom")->check(CLI::Range(8, 1024));
   app.add_option("--picture", options.picture, "pixels on an edge of the picture")
