@@ -2,11 +2,11 @@
 #include "core/errors.h"
 #include "core/text.h"
 #include "image/image_io.h"
-#include "inputs.h"
 #include "options.h"
 #include "scene/load.h"
 #include "scene/vary.h"
 #include "study/ffmpeg.h"
+#include "study/inputs.h"
 
 #include <algorithm>
 #include <chrono>

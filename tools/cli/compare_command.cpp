@@ -3,12 +3,12 @@
 #include "core/text.h"
 #include "image/image_io.h"
 #include "image/pictures.h"
-#include "inputs.h"
 #include "json_output.h"
 #include "options.h"
 #include "scene/load.h"
 #include "scene/load_warps.h"
 #include "scene/scene_json.h"
+#include "study/inputs.h"
 #include "study/metrics.h"
 
 #include <cstdio>

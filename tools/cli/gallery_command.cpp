@@ -4,7 +4,6 @@
 #include "core/files.h"
 #include "image/image_io.h"
 #include "image/pictures.h"
-#include "inputs.h"
 #include "lens_inputs.h"
 #include "options.h"
 #include "preset_sheet.h"
@@ -15,6 +14,7 @@
 #include "scene/scene_json.h"
 #include "study/axis_tables_page.h"
 #include "study/gallery.h"
+#include "study/inputs.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,8 +1,8 @@
 #include "console.h"
-#include "inputs.h"
 #include "json_output.h"
 #include "options.h"
 #include "scene/load.h"
+#include "study/inputs.h"
 #include "volume/read.h"
 
 #include <cstdio>

@@ -2,9 +2,9 @@
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/text.h"
-#include "inputs.h"
 #include "options.h"
 #include "render/probe.h"
+#include "study/inputs.h"
 
 #include <nlohmann/json.hpp>
 

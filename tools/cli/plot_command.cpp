@@ -1,9 +1,9 @@
 #include "console.h"
 #include "core/errors.h"
 #include "core/files.h"
-#include "inputs.h"
 #include "options.h"
 #include "study/axis_tables_page.h"
+#include "study/inputs.h"
 
 #include <cstdio>
 #include <filesystem>

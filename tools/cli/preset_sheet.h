@@ -3,7 +3,7 @@
 
 #include "core/progress.h"
 #include "image/image.h"
-#include "inputs.h"
+#include "study/inputs.h"
 
 namespace slicelens::cli {
 

@@ -1,10 +1,10 @@
 #include "console.h"
 #include "core/errors.h"
 #include "image/image_io.h"
-#include "inputs.h"
 #include "options.h"
 #include "scene/names.h"
 #include "scene/scene_json.h"
+#include "study/inputs.h"
 
 #include <chrono>
 #include <cstdio>

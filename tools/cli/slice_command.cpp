@@ -2,10 +2,10 @@
 #include "core/errors.h"
 #include "core/text.h"
 #include "image/image_io.h"
-#include "inputs.h"
 #include "options.h"
 #include "render/cut_planes.h"
 #include "scene/names.h"
+#include "study/inputs.h"
 
 #include <cstdio>
 

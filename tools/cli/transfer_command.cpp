@@ -1,11 +1,11 @@
 #include "console.h"
 #include "core/errors.h"
 #include "core/files.h"
-#include "inputs.h"
 #include "options.h"
 #include "scene/camera_files.h"
 #include "scene/load.h"
 #include "scene/transfer_files.h"
+#include "study/inputs.h"
 
 #include <nlohmann/json.hpp>
 

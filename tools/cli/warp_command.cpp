@@ -1,8 +1,8 @@
 #include "console.h"
 #include "core/errors.h"
-#include "inputs.h"
 #include "options.h"
 #include "render/bake.h"
+#include "study/inputs.h"
 #include "volume/write.h"
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "inputs.h"
+#include "study/inputs.h"
 
 #include "core/errors.h"
 #include "core/files.h"
@@ -14,7 +14,7 @@
 #include <system_error>
 #include <utility>
 
-namespace slicelens::cli {
+namespace slicelens {
 
 namespace fs = std::filesystem;
 
@@ -295,4 +295,4 @@ void add_metadata(RenderResult& result, const Scene& scene, const std::string& s
   }
 }
 
-} // namespace slicelens::cli
+} // namespace slicelens

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace slicelens::cli {
+namespace slicelens {
 
 /// A scene and where its relative paths count from.
 struct SceneInput {
@@ -84,4 +84,4 @@ RenderResult render_with(OpenContext& context, const PreparedScene& prepared, co
 /// that the scene's warps have read.
 void add_metadata(RenderResult& result, const Scene& scene, const std::string& sha256);
 
-} // namespace slicelens::cli
+} // namespace slicelens
