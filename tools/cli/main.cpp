@@ -382,6 +382,35 @@ void add_camera(CLI::App& app, CameraOptions& options, std::function<void()>& ru
   command.callback([&options, &run] { run = [&options] { run_camera(options); }; });
 }
 
+void add_study(CLI::App& app, StudyOptions& options, std::function<void()>& run) {
+  CLI::App& command = *app.add_subcommand(
+      "study", "measure quality and time of every combination that a study file names, and report them");
+  command.footer(
+      "Writes results.csv, results.json, report.html and the pictures into DIR, and keeps every measurement "
+      "in "
+      "journal.jsonl:\ncalled again, an interrupted study goes on where it was. A combination that fails is "
+      "listed and does not stop the others;\nthe exit status is then 1. Shards go into folders of their own "
+      "and are joined by --merge.\n\n"
+      "  slicelens study studies/lamar-table3.json -o lamar3\n"
+      "  slicelens study sweep.json --shard 1/4 -o part1        # on four machines, or by GNU parallel\n"
+      "  slicelens study sweep.json --merge part1 --merge part2 --merge part3 --merge part4 -o all");
+  command.add_option("input", options.input, "STUDY, a .json file (docs/studies.md)")
+      ->required()
+      ->type_name("");
+  command.add_option("-o,--output", options.output, "folder to write; default: the study's name")
+      ->type_name("DIR");
+  add_set(command, options.set, "--set",
+          "change a scene key of every combination, unless it varies; may be given again");
+  command.add_flag("--quick", options.quick, "the study's own short form (its part \"quick\")");
+  command.add_flag("--fresh", options.fresh, "put earlier results in DIR aside and measure everything anew");
+  command.add_option("--shard", options.shard, "measure the i-th of n parts only")->type_name("i/n");
+  command.add_option("--merge", options.merge, "a folder that a shard wrote; may be given again")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
+  command.callback([&options, &run] { run = [&options] { run_study_command(options); }; });
+}
+
 /// An error's text as one line on stderr.
 int fail(const std::string& message, int status) {
   end_progress();
@@ -448,6 +477,7 @@ int run_program(int argc, char** argv) {
   SliceOptions slice;
   TransferOptions transfer;
   CameraOptions camera;
+  StudyOptions study;
   add_render(app, render, run);
   add_lens(app, lens, run);
   add_compare(app, compare, run);
@@ -462,6 +492,7 @@ int run_program(int argc, char** argv) {
   add_slice(app, slice, run);
   add_transfer(app, transfer, run);
   add_camera(app, camera, run);
+  add_study(app, study, run);
   try {
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
