@@ -411,6 +411,23 @@ void add_study(CLI::App& app, StudyOptions& options, std::function<void()>& run)
   command.callback([&options, &run] { run = [&options] { run_study_command(options); }; });
 }
 
+void add_tables(CLI::App& app, TablesOptions& options, std::function<void()>& run) {
+  CLI::App& command = *app.add_subcommand(
+      "tables", "make the tables and numbers of documents anew from the results of studies");
+  command.footer("Replaces what stands between the marks <!-- study NAME: COLUMNS --> and <!-- end --> of "
+                 "Markdown files "
+                 "(docs/studies.md)\nand names the files that changed.\n\n"
+                 "  slicelens tables docs/benchmarks.md --results out/studies");
+  command.add_option("documents", options.documents, "Markdown files")->required()->type_name("");
+  command
+      .add_option("--results", options.results,
+                  "folder with a folder for each study, as slicelens study wrote it")
+      ->required()
+      ->type_name("DIR");
+  command.add_flag("--check", options.check, "change nothing; exit status 1 where a document would change");
+  command.callback([&options, &run] { run = [&options] { run_tables(options); }; });
+}
+
 /// An error's text as one line on stderr.
 int fail(const std::string& message, int status) {
   end_progress();
@@ -478,6 +495,7 @@ int run_program(int argc, char** argv) {
   TransferOptions transfer;
   CameraOptions camera;
   StudyOptions study;
+  TablesOptions tables;
   add_render(app, render, run);
   add_lens(app, lens, run);
   add_compare(app, compare, run);
@@ -493,6 +511,7 @@ int run_program(int argc, char** argv) {
   add_transfer(app, transfer, run);
   add_camera(app, camera, run);
   add_study(app, study, run);
+  add_tables(app, tables, run);
   try {
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
