@@ -378,6 +378,22 @@ void add_camera(CLI::App& app, CameraOptions& options, std::function<void()>& ru
   command.callback([&options, &run] { run = [&options] { run_camera(options); }; });
 }
 
+void add_export(CLI::App& app, ExportOptions& options, std::function<void()>& run) {
+  CLI::App& command =
+      *app.add_subcommand("export", "write a scene for other renderers: numbers and raw voxels");
+  command.footer(
+      "Writes DIR/scene.json with everything worked out (transfer function, camera, sample distance in "
+      "world units, light)\nand DIR/volume.raw. tools/render_with_vtk draws such folders with VTK. "
+      "Refused are warps, several volumes,\nlabels, clipping, effects and overlays.\n\n"
+      "  slicelens export head.json -o head/ --set render.spacing=0.5");
+  command.add_option("input", options.input, "SCENE, VOLUME or IMAGE")->required()->type_name("");
+  command.add_option("-o,--output", options.folder, "folder to write to; made where there is none")
+      ->required()
+      ->type_name("DIR");
+  add_set(command, options.set);
+  command.callback([&options, &run] { run = [&options] { run_export(options); }; });
+}
+
 /// An error's text as one line on stderr.
 int fail(const std::string& message, int status) {
   end_progress();
@@ -444,6 +460,7 @@ int run_program(int argc, char** argv) {
   SliceOptions slice;
   TransferOptions transfer;
   CameraOptions camera;
+  ExportOptions exporting;
   add_render(app, render, run);
   add_lens(app, lens, run);
   add_compare(app, compare, run);
@@ -458,6 +475,7 @@ int run_program(int argc, char** argv) {
   add_slice(app, slice, run);
   add_transfer(app, transfer, run);
   add_camera(app, camera, run);
+  add_export(app, exporting, run);
   try {
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);

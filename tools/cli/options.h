@@ -127,6 +127,12 @@ struct CameraOptions {
   std::vector<std::string> set;
 };
 
+struct ExportOptions {
+  std::string input;
+  std::string folder;
+  std::vector<std::string> set;
+};
+
 // Each runs one command and returns; results go to stdout and files, the rest to stderr. They throw the
 // errors of core/errors.h.
 void run_render(const RenderOptions& options);
@@ -143,5 +149,6 @@ void run_pick(const PickOptions& options);
 void run_slice(const SliceOptions& options);
 void run_transfer(const TransferOptions& options);
 void run_camera(const CameraOptions& options);
+void run_export(const ExportOptions& options);
 
 } // namespace slicelens::cli
