@@ -51,6 +51,8 @@ struct TimingProtocol {
   bool measure = true;
   std::size_t warm_up = 1; ///< frames of a visit that do not count; at least one, which compiles the shaders
   std::size_t frames = 1;  ///< that count; the visit's time is their median
+  std::size_t batch =
+      1; ///< pictures that are drawn in a row for one of these frames: its time is theirs ÷ batch
   std::size_t rounds = 5;
   std::size_t most_rounds = 5; ///< where `precision` asks for more
   double confidence = 0.95;    ///< of the interval of the median
