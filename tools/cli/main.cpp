@@ -382,6 +382,22 @@ void add_camera(CLI::App& app, CameraOptions& options, std::function<void()>& ru
   command.callback([&options, &run] { run = [&options] { run_camera(options); }; });
 }
 
+void add_export(CLI::App& app, ExportOptions& options, std::function<void()>& run) {
+  CLI::App& command =
+      *app.add_subcommand("export", "write a scene for other renderers: numbers and raw voxels");
+  command.footer(
+      "Writes DIR/scene.json with everything worked out (transfer function, camera, sample distance in "
+      "world units, light)\nand DIR/volume.raw. tools/render_with_vtk draws such folders with VTK. "
+      "Refused are warps, several volumes,\nlabels, clipping, effects and overlays.\n\n"
+      "  slicelens export head.json -o head/ --set render.spacing=0.5");
+  command.add_option("input", options.input, "SCENE, VOLUME or IMAGE")->required()->type_name("");
+  command.add_option("-o,--output", options.folder, "folder to write to; made where there is none")
+      ->required()
+      ->type_name("DIR");
+  add_set(command, options.set);
+  command.callback([&options, &run] { run = [&options] { run_export(options); }; });
+}
+
 void add_study(CLI::App& app, StudyOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand(
       "study", "measure quality and time of every combination that a study file names, and report them");
@@ -494,6 +510,7 @@ int run_program(int argc, char** argv) {
   SliceOptions slice;
   TransferOptions transfer;
   CameraOptions camera;
+  ExportOptions exporting;
   StudyOptions study;
   TablesOptions tables;
   add_render(app, render, run);
@@ -510,6 +527,7 @@ int run_program(int argc, char** argv) {
   add_slice(app, slice, run);
   add_transfer(app, transfer, run);
   add_camera(app, camera, run);
+  add_export(app, exporting, run);
   add_study(app, study, run);
   add_tables(app, tables, run);
   try {

@@ -127,6 +127,12 @@ struct CameraOptions {
   std::vector<std::string> set;
 };
 
+struct ExportOptions {
+  std::string input;
+  std::string folder;
+  std::vector<std::string> set;
+};
+
 struct StudyOptions {
   std::string input;
   std::string output; ///< folder; empty: the study's name
@@ -159,6 +165,7 @@ void run_pick(const PickOptions& options);
 void run_slice(const SliceOptions& options);
 void run_transfer(const TransferOptions& options);
 void run_camera(const CameraOptions& options);
+void run_export(const ExportOptions& options);
 void run_study_command(const StudyOptions& options);
 void run_tables(const TablesOptions& options);
 
