@@ -104,13 +104,17 @@ void add_compare(CLI::App& app, CompareOptions& options, std::function<void()>& 
       "  slicelens compare head.json --set-a render.pipeline=slices --set-b render.pipeline=rays\n\n"
       "psnr (dB, null when equal) and the other metrics are over RGB on the background; psnr_covered is over "
       "the pixels that\n"
-      "either picture covers; over_1_255 is the fraction of values that differ by more than 1/255.");
+      "either picture covers; over_1_255 is the fraction of values that differ by more than 1/255; ssim and "
+      "ms_ssim (null below\n"
+      "176 pixels) are of the luma; flip is the mean FLIP error, 67 pixels per degree. docs/metrics.md "
+      "explains "
+      "them.");
   command.add_option("a", options.a, "first picture, scene or volume")->required()->type_name("");
   command.add_option("b", options.b, "second one; default: the first again, with --set-a and --set-b")
       ->type_name("");
   command
       .add_option("-o,--output", options.folder,
-                  "folder for both pictures, the amplified difference and a heat map")
+                  "folder for both pictures, the amplified difference, a heat map and FLIP's error map")
       ->type_name("DIR");
   add_set(command, options.set, "--set", "change a scene key on both sides");
   add_set(command, options.set_a, "--set-a", "change a scene key of the first side");
