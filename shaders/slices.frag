@@ -120,15 +120,20 @@ void shift_sample() {}
 #endif
 
 #if defined(MODE_ISO)
-// The surface between this slice and the one before it.
+// The surface between this slice and the one before it. The way looked along reaches beyond that one by what coordinates are
+// rounded by: its fragment has this point by other arithmetic, and a surface between the two would be found by neither. What
+// both find is the same point. A longer reach would also find thin parts that lie between two samples of the ray.
+const float reach = 1e-6;  // texture coordinates: some steps of a float below 1
 void main() {
   shift_sample();
-  vec3 before = object_coordinate + step_to_eye(object_coordinate);
+  vec3 step_back = step_to_eye(object_coordinate);
+  vec3 before = object_coordinate + step_back;
   vec3 here_point = shown_point(object_coordinate);
   vec3 before_point = shown_point(before);
   if (!in_region(before) || !shows_data(here_point) || !shows_data(before_point)) discard;
   float here_value = displayed_value(here_point);
-  float before_value = displayed_value(before_point);
+  before += reach * normalize(step_back);
+  float before_value = iso_value(before);
   if ((here_value < isovalue) == (before_value < isovalue)) discard;
   vec3 p = refined_crossing(before, object_coordinate, before_value, here_value, isovalue);
   result = vec4(surface_color(p, direction_to_eye(p)), 1.0);
