@@ -50,4 +50,16 @@ double elapsed_seconds(const Functions& gl, const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+std::uint64_t samples_passed(const Functions& gl, const std::function<void()>& work) {
+  GLuint name = 0;
+  gl.GenQueries(1, &name);
+  const Query query(gl, name);
+  gl.BeginQuery(GL_SAMPLES_PASSED, name);
+  work();
+  gl.EndQuery(GL_SAMPLES_PASSED);
+  GLuint64 count = 0;
+  gl.GetQueryObjectui64v(name, GL_QUERY_RESULT, &count);
+  return count;
+}
+
 } // namespace slicelens::gl

@@ -42,4 +42,7 @@ void finish(const Functions& gl);
 /// Wall-clock seconds that `work` takes, from an idle driver until all its commands are done.
 double elapsed_seconds(const Functions& gl, const std::function<void()>& work);
 
+/// Fragments that `work` hands to blending (GL_SAMPLES_PASSED).
+std::uint64_t samples_passed(const Functions& gl, const std::function<void()>& work);
+
 } // namespace slicelens::gl

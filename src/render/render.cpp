@@ -1,12 +1,9 @@
 #include "render/render.h"
 
 #include "core/errors.h"
-#include "gl/timer.h"
-#include "render/fixed_function.h"
-#include "render/rays.h"
 #include "render/reference.h"
+#include "render/render_session.h"
 #include "render/scene_overlay.h"
-#include "render/slices.h"
 #include "scene/names.h"
 
 #include <algorithm>
@@ -36,61 +33,31 @@ std::string limits_text(const gl::Limits& limits) {
          std::to_string(limits.timer_query_bits);
 }
 
-/// Draws with `draw` between the marks of a timer query.
-template <class Draw>
-std::optional<double> timed_draw(const gl::Functions& gl, Draw draw) {
-  gl::TimerQuery query(gl);
-  query.begin();
-  draw();
-  gl::finish(gl);
-  query.end();
-  const auto nanoseconds = query.result_nanoseconds();
-  return nanoseconds ? std::optional<double>(static_cast<double>(*nanoseconds) * 1e-9) : std::nullopt;
-}
-
 void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Progress& progress,
                    RenderResult& result) {
-  const gl::Functions& gl = context.functions();
-  const RenderSettings& settings = prepared.scene.render;
+  RenderSession session(context, prepared, progress);
+  const SetUpTimes& set_up = session.set_up();
+  result.times.upload = set_up.upload;
+  result.times.compile = set_up.compile;
+  result.times.slice = set_up.slice;
+  result.times.tessellate = set_up.tessellate;
+  const DrawTime drawn = session.draw(progress);
+  result.times.draw = drawn.wall;
+  result.times.gpu_draw = drawn.gpu;
   Stopwatch watch;
-  const GpuScene scene = upload(gl, prepared, progress);
-  gl::Target target =
-      gl::make_target(gl, prepared.view.width, prepared.view.height, texture_format(settings.target));
-  if (!prepared.scene.planes.empty())
-    gl::attach_depth(gl, target);
-  gl::finish(gl);
-  result.times.upload = watch.lap();
-  const auto draw_slices = [&](auto renderer) {
-    result.times.compile = watch.lap();
-    renderer.slice(prepared);
-    result.times.slice = watch.lap();
-    result.times.gpu_draw = timed_draw(gl, [&] { renderer.draw(prepared, scene, target, progress); });
-    result.slices = renderer.slice_count();
-    result.triangles = renderer.triangle_count();
-    if constexpr (requires { renderer.draw_call_count(); })
-      result.draw_calls = renderer.draw_call_count();
-  };
-  if (settings.pipeline == Pipeline::fixed_function) {
-    draw_slices(FixedFunctionRenderer(context));
-  } else if (draws_slices(settings.pipeline)) {
-    draw_slices(SliceRenderer(gl, prepared));
-  } else {
-    RayRenderer renderer(gl, prepared);
-    result.times.compile = watch.lap();
-    result.times.gpu_draw = timed_draw(gl, [&] { renderer.draw(prepared, scene, target, progress); });
-  }
-  result.times.draw = watch.lap();
-  result.image = make_image(target.width, target.height);
-  result.image.pixels = gl::read_pixels(gl, target);
+  result.image = session.read();
   result.times.read = watch.lap();
+  result.slices = session.slice_count();
+  result.triangles = session.triangle_count();
+  result.draw_calls = session.draw_call_count();
   result.renderer = context.info().renderer;
   result.version = context.info().version;
   result.context = context.info().kind;
   result.limits = limits_text(context.info().limits);
-  result.texture = scene.texture;
-  result.texture_bytes = scene.bytes;
-  result.whole_texture_bytes = scene.whole_bytes;
-  result.volume_textures = std::max<std::size_t>(1, scene.bricks.size());
+  result.texture = session.textures().texture;
+  result.texture_bytes = session.textures().bytes;
+  result.whole_texture_bytes = session.textures().whole_bytes;
+  result.volume_textures = std::max<std::size_t>(1, session.textures().bricks.size());
 }
 
 } // namespace

@@ -13,9 +13,10 @@ namespace slicelens {
 /// Seconds of wall clock, each phase finished before the next starts.
 struct RenderTimes {
   double context = 0;             ///< opening it
-  double upload = 0;              ///< volume and transfer function into textures
+  double upload = 0;              ///< volume and transfer function into textures, corners into buffers
   double compile = 0;             ///< shader programs
-  double slice = 0;               ///< cutting polygons
+  double slice = 0;               ///< cutting planes with the volume's box
+  double tessellate = 0;          ///< polygons to triangles
   double draw = 0;                ///< until the driver is done
   double read = 0;                ///< back to an Image
   std::optional<double> gpu_draw; ///< the driver's own measure of draw, where it has one

@@ -83,8 +83,9 @@ SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepa
   }
 }
 
-void SliceRenderer::slice(const PreparedScene& prepared) {
-  const StackGeometry geometry = make_stack_geometry(prepared);
+void SliceRenderer::slice(const PreparedScene& prepared) { set_geometry(make_stack_geometry(prepared)); }
+
+void SliceRenderer::set_geometry(const StackGeometry& geometry) {
   index_ends_ = geometry.index_ends;
   batches_ = geometry.batches;
 

@@ -22,6 +22,8 @@ public:
 
   /// Cuts the stack for the scene's view and hands its polygons to the driver.
   void slice(const PreparedScene& prepared);
+  /// Hands over a stack that is cut already: what make_stack_geometry gives for the same scene.
+  void set_geometry(const StackGeometry& geometry);
 
   /// Draws the stack into `target`: associated colour over transparent black. State is restored. Reports the
   /// stage "draw" when `progress` listens, at the price of waiting for the driver a few dozen times.

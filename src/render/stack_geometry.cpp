@@ -7,12 +7,19 @@
 #include "tess/subdivided_slice.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
 namespace slicelens {
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 void append_mesh(StackGeometry& geometry, const LensMesh& mesh) {
   if (geometry.vertices.size() + mesh.vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
@@ -64,8 +71,10 @@ StackGeometry shell_geometry(const PreparedScene& prepared, SliceRequest request
   request.low = prepared.object_low;
   request.high = prepared.object_high;
   const Interval depths = drawn_depths(prepared);
+  const Clock::time_point start = Clock::now();
   const SliceStack stack = make_shell_stack(request, (depths.near + depths.far) / 2);
   StackGeometry geometry;
+  geometry.cut_seconds = seconds_since(start);
   for (const Slice& slice : stack.slices) {
     const auto first = static_cast<std::uint32_t>(geometry.vertices.size());
     for (std::uint32_t i = 0; i < slice.count; ++i) {
@@ -123,11 +132,13 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
     request.low = prepared.object_low - margin;
     request.high = prepared.object_high + margin;
   }
+  const Clock::time_point start = Clock::now();
   const SliceStack stack = make_slice_stack(request);
+  StackGeometry geometry;
+  geometry.cut_seconds = seconds_since(start);
   if (is_subdivided(prepared))
     check_cells(stack, render.subdivision);
 
-  StackGeometry geometry;
   const LensClip clip{prepared.data_clip, prepared.object_clip};
   const TileCuts cuts = is_bricked(prepared) ? plan_bricks(prepared).cuts : TileCuts{};
   for (const Slice& slice : stack.slices) {

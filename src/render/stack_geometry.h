@@ -30,6 +30,8 @@ struct StackGeometry {
   /// where tiles share no more than edges: so blending is in order. Every other slice goes through its tiles
   /// backwards, so that a slice begins with the tile that the one before ended with.
   std::vector<TileBatch> batches;
+  double cut_seconds = 0; ///< wall clock of cutting planes with the box; what else the call takes is making
+                          ///< triangles
 };
 
 /// Whether pipeline `tessellated` cuts slices into regular cells: for every list of warps but LaMar's lenses,

@@ -14,8 +14,8 @@ KeyValue parse_assignment(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-Scene scene_from_json(const std::string& text, const std::string& source,
-                      const std::vector<KeyValue>& changes) {
+Scene scene_keys_from_json(const std::string& text, const std::string& source,
+                           const std::vector<KeyValue>& changes) {
   const Json json = changed_document(text, source, changes);
   Scene scene;
   try {
@@ -31,6 +31,16 @@ Scene scene_from_json(const std::string& text, const std::string& source,
     use_pipeline_defaults(scene.render, has_value(json, "render", "classification"),
                           has_value(json, "render", "target"),
                           has_value(json, "render", "opacity_correction"));
+  } catch (const UsageError& error) {
+    throw UsageError(source + ": " + error.what());
+  }
+  return scene;
+}
+
+Scene scene_from_json(const std::string& text, const std::string& source,
+                      const std::vector<KeyValue>& changes) {
+  Scene scene = scene_keys_from_json(text, source, changes);
+  try {
     validate(scene);
   } catch (const UsageError& error) {
     throw UsageError(source + ": " + error.what());

@@ -26,6 +26,11 @@ KeyValue parse_assignment(const std::string& text);
 Scene scene_from_json(const std::string& text, const std::string& source,
                       const std::vector<KeyValue>& changes = {});
 
+/// The same without validate(Scene): the keys and the types and ranges of their values are right, whether they
+/// go together is not yet asked.
+Scene scene_keys_from_json(const std::string& text, const std::string& source,
+                           const std::vector<KeyValue>& changes = {});
+
 /// The scene with every key, in the order of the contract; values that stand for "decided by the data" are
 /// null. `indent` < 0: one line.
 std::string scene_to_json(const Scene& scene, int indent = 2);

@@ -1,18 +1,18 @@
 #include "study/metrics.h"
 
 #include "core/errors.h"
+#include "core/text.h"
+#include "study/flip.h"
+#include "study/planes.h"
+#include "study/ssim.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace slicelens {
 
 namespace {
 
-constexpr int window_width = 11;
-constexpr double window_sigma = 1.5;
-constexpr double step_limit = 1.0 / 255 + 1e-6;
 constexpr double half_step = 0.5 / 255;
 
 std::string size_text(const Image& image) {
@@ -28,11 +28,6 @@ void check_finite(const Image& image, const std::string& which) {
                      std::to_string(i / 4 / width) + "), channel " + "RGBA"[i % 4] +
                      " is not finite; pictures with NaN or infinity cannot be compared");
   }
-}
-
-glm::dvec3 composited(const Image& image, int x, int y, const glm::dvec3& background) {
-  const glm::dvec3 color(channel(image, x, y, 0), channel(image, x, y, 1), channel(image, x, y, 2));
-  return color + (1.0 - channel(image, x, y, 3)) * background;
 }
 
 bool has_transparency(const Image& image) {
@@ -56,85 +51,9 @@ std::optional<double> psnr_of(double squares, double values) {
   return -10 * std::log10(squares / values);
 }
 
-double luma(const glm::dvec3& rgb) { return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b; }
+double step_limit(double k) { return k / 255 + 1e-6; }
 
-/// The Gaussian's weights over the largest odd number of pixels up to 11 that fits `side`; their sum is 1.
-std::vector<double> window_for(int side) {
-  const int width = std::min(window_width, side % 2 == 1 ? side : side - 1);
-  std::vector<double> weights(static_cast<std::size_t>(std::max(width, 1)));
-  const double middle = static_cast<double>(weights.size() - 1) / 2;
-  double sum = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const double offset = static_cast<double>(i) - middle;
-    weights[i] = std::exp(-offset * offset / (2 * window_sigma * window_sigma));
-    sum += weights[i];
-  }
-  for (double& weight : weights)
-    weight /= sum;
-  return weights;
-}
-
-/// Weighted means of a, b, a², b² and a·b.
-using Moments = std::array<double, 5>;
-
-void add(Moments& sum, double weight, const Moments& value) {
-  for (std::size_t m = 0; m < sum.size(); ++m)
-    sum[m] += weight * value[m];
-}
-
-/// Wang et al. 2004, eq. 13.
-double ssim_of(const Moments& m) {
-  constexpr double c1 = 0.01 * 0.01;
-  constexpr double c2 = 0.03 * 0.03;
-  const double variance_a = m[2] - m[0] * m[0];
-  const double variance_b = m[3] - m[1] * m[1];
-  const double covariance = m[4] - m[0] * m[1];
-  return (2 * m[0] * m[1] + c1) * (2 * covariance + c2) /
-         ((m[0] * m[0] + m[1] * m[1] + c1) * (variance_a + variance_b + c2));
-}
-
-/// Mean SSIM; the window is separable, so rows are filtered once and kept only as long as a window needs
-/// them.
-double mean_ssim(const Image& a, const Image& b, const glm::dvec3& background_a,
-                 const glm::dvec3& background_b) {
-  const std::vector<double> across = window_for(a.width);
-  const std::vector<double> down = window_for(a.height);
-  const std::size_t positions = static_cast<std::size_t>(a.width) - across.size() + 1;
-  std::vector<std::vector<Moments>> rows(down.size(), std::vector<Moments>(positions));
-  std::vector<Moments> line(static_cast<std::size_t>(a.width));
-  double sum = 0;
-  for (int y = 0; y < a.height; ++y) {
-    for (int x = 0; x < a.width; ++x) {
-      const double va = luma(composited(a, x, y, background_a));
-      const double vb = luma(composited(b, x, y, background_b));
-      line[static_cast<std::size_t>(x)] = {va, vb, va * va, vb * vb, va * vb};
-    }
-    const auto last = static_cast<std::size_t>(y);
-    for (std::size_t x = 0; x < positions; ++x) {
-      Moments& mean = rows[last % down.size()][x];
-      mean = {};
-      for (std::size_t k = 0; k < across.size(); ++k)
-        add(mean, across[k], line[x + k]);
-    }
-    if (last + 1 < down.size())
-      continue;
-    double row_sum = 0;
-    for (std::size_t x = 0; x < positions; ++x) {
-      Moments mean{};
-      for (std::size_t k = 0; k < down.size(); ++k)
-        add(mean, down[k], rows[(last + 1 + k) % down.size()][x]); // the oldest row first
-      row_sum += ssim_of(mean);
-    }
-    sum += row_sum;
-  }
-  const std::size_t window_rows = static_cast<std::size_t>(a.height) - down.size() + 1;
-  return sum / (static_cast<double>(positions) * static_cast<double>(window_rows));
-}
-
-} // namespace
-
-Metrics compare_images(const Image& a, const Image& b, const glm::dvec3& background_a,
-                       const glm::dvec3& background_b) {
+void check_comparable(const Image& a, const Image& b) {
   if (a.width != b.width || a.height != b.height)
     throw UsageError("the pictures are " + size_text(a) + " and " + size_text(b) +
                      "; only pictures of the same size can be compared");
@@ -142,7 +61,11 @@ Metrics compare_images(const Image& a, const Image& b, const glm::dvec3& backgro
     throw UsageError("the pictures have no pixels to compare");
   check_finite(a, "first");
   check_finite(b, "second");
-  Metrics metrics;
+}
+
+/// Everything but the similarities and FLIP, which are left as they are.
+void measure_differences(Metrics& metrics, const Image& a, const Image& b, const glm::dvec3& background_a,
+                         const glm::dvec3& background_b) {
   metrics.width = a.width;
   metrics.height = a.height;
   const bool transparent_a = has_transparency(a);
@@ -154,13 +77,13 @@ Metrics compare_images(const Image& a, const Image& b, const glm::dvec3& backgro
   for (int y = 0; y < a.height; ++y) {
     for (int x = 0; x < a.width; ++x) {
       const glm::dvec3 difference =
-          glm::abs(composited(a, x, y, background_a) - composited(b, x, y, background_b));
+          glm::abs(color_over(a, x, y, background_a) - color_over(b, x, y, background_b));
       const double square = glm::dot(difference, difference);
       squares += square;
       for (int c = 0; c < 3; ++c) {
         absolute += difference[c];
         metrics.max_abs = std::max(metrics.max_abs, difference[c]);
-        over += difference[c] > step_limit ? 1 : 0;
+        over += difference[c] > step_limit(1) ? 1 : 0;
       }
       if (covers(a, x, y, background_a, transparent_a) || covers(b, x, y, background_b, transparent_b)) {
         squares_covered += square;
@@ -174,7 +97,29 @@ Metrics compare_images(const Image& a, const Image& b, const glm::dvec3& backgro
   metrics.rmse = std::sqrt(squares / values);
   metrics.mean_abs = absolute / values;
   metrics.over_1_255 = static_cast<double>(over) / values;
-  metrics.ssim = mean_ssim(a, b, background_a, background_b);
+}
+
+/// K of "over_K_255", 1 to 254 without leading zeros.
+std::optional<int> steps_of(const std::string& name) {
+  for (int k = 1; k <= 254; ++k) {
+    if (name == "over_" + std::to_string(k) + "_255")
+      return k;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Metrics compare_images(const Image& a, const Image& b, const glm::dvec3& background_a,
+                       const glm::dvec3& background_b) {
+  check_comparable(a, b);
+  Metrics metrics;
+  measure_differences(metrics, a, b, background_a, background_b);
+  const PixelPlane luma_a = luma_plane(a, background_a);
+  const PixelPlane luma_b = luma_plane(b, background_b);
+  metrics.ssim = ssim(luma_a, luma_b);
+  metrics.ms_ssim = ms_ssim(luma_a, luma_b);
+  metrics.flip = mean_of(flip_errors(a, b, background_a, background_b));
   return metrics;
 }
 
@@ -182,12 +127,83 @@ std::vector<std::pair<std::string, std::optional<double>>> as_pairs(const Metric
   return {{"psnr", metrics.psnr},
           {"psnr_covered", metrics.psnr_covered},
           {"ssim", metrics.ssim},
+          {"ms_ssim", metrics.ms_ssim},
+          {"flip", metrics.flip},
           {"rmse", metrics.rmse},
           {"mean_abs", metrics.mean_abs},
           {"max_abs", metrics.max_abs},
           {"over_1_255", metrics.over_1_255},
           {"width", static_cast<double>(metrics.width)},
           {"height", static_cast<double>(metrics.height)}};
+}
+
+double fraction_over(const Image& a, const Image& b, double k, const glm::dvec3& background_a,
+                     const glm::dvec3& background_b) {
+  check_comparable(a, b);
+  const double limit = step_limit(k);
+  std::size_t over = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      const glm::dvec3 difference =
+          glm::abs(color_over(a, x, y, background_a) - color_over(b, x, y, background_b));
+      for (int c = 0; c < 3; ++c)
+        over += difference[c] > limit ? 1 : 0;
+    }
+  }
+  return static_cast<double>(over) / (3.0 * a.width * a.height);
+}
+
+const std::vector<std::string>& metric_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, value] : as_pairs({})) {
+      if (name != "width" && name != "height")
+        all.push_back(name);
+    }
+    return all;
+  }();
+  return names;
+}
+
+void validate_metric(const std::string& name) {
+  const std::vector<std::string>& known = metric_names();
+  if (std::find(known.begin(), known.end(), name) != known.end() || steps_of(name))
+    return;
+  const auto nearest = nearest_word(name, known);
+  throw UsageError("there is no metric '" + name + "'; " +
+                   (nearest ? "did you mean " + *nearest + "?"
+                            : "known: " + join(known) + " (and over_K_255 for K from 1 to 254)"));
+}
+
+std::vector<std::pair<std::string, std::optional<double>>> measure(const std::vector<std::string>& names,
+                                                                   const Image& a, const Image& b,
+                                                                   const glm::dvec3& background_a,
+                                                                   const glm::dvec3& background_b) {
+  std::for_each(names.begin(), names.end(), validate_metric);
+  check_comparable(a, b);
+  std::optional<Metrics> differences;
+  std::optional<std::pair<PixelPlane, PixelPlane>> lumas;
+  std::vector<std::pair<std::string, std::optional<double>>> measured;
+  for (const std::string& name : names) {
+    if (name == "flip") {
+      measured.emplace_back(name, mean_of(flip_errors(a, b, background_a, background_b)));
+    } else if (name == "ssim" || name == "ms_ssim") {
+      if (!lumas)
+        lumas = {luma_plane(a, background_a), luma_plane(b, background_b)};
+      const auto& [la, lb] = *lumas;
+      measured.emplace_back(name, name == "ssim" ? ssim(la, lb) : ms_ssim(la, lb));
+    } else if (const auto k = steps_of(name)) {
+      measured.emplace_back(name, fraction_over(a, b, *k, background_a, background_b));
+    } else {
+      if (!differences)
+        measure_differences(differences.emplace(), a, b, background_a, background_b);
+      for (const auto& pair : as_pairs(*differences)) {
+        if (pair.first == name)
+          measured.push_back(pair);
+      }
+    }
+  }
+  return measured;
 }
 
 } // namespace slicelens

@@ -13,14 +13,16 @@
 
 namespace slicelens {
 
-/// Differences of two pictures of the same size. All but `ssim` are over the R, G and B values d = a − b of
-/// all pixels, in display space with peak 1, each picture put over its background first.
+/// Differences of two pictures of the same size. All but `ssim`, `ms_ssim` and `flip` are over the R, G and B
+/// values d = a − b of all pixels, in display space with peak 1, each picture put over its background first.
 struct Metrics {
   int width = 0;
   int height = 0;
   std::optional<double> psnr;         ///< −10·log10(mean d²) in dB; nothing when the pictures are equal
   std::optional<double> psnr_covered; ///< the same over the covered pixels; nothing when equal there, or none
-  double ssim = 1;                    ///< mean structural similarity of the luma, see compare_images
+  double ssim = 1;                    ///< mean structural similarity of the luma (study/ssim.h)
+  std::optional<double> ms_ssim;      ///< the same over five scales; nothing with a side below 176 pixels
+  double flip = 0;                    ///< mean FLIP error at 67 pixels per degree (study/flip.h), in [0,1]
   double rmse = 0;                    ///< √(mean d²)
   double mean_abs = 0;                ///< mean |d|
   double max_abs = 0;                 ///< largest |d|
@@ -37,19 +39,33 @@ struct Metrics {
 /// over_1_255: one step between 8-bit pictures must not count, though k/255 is rounded in floats; so the
 /// limit is 1/255 + 10⁻⁶, above the rounding of two floats below 1 and far below the next step.
 ///
-/// SSIM: Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From Error Visibility to Structural
-/// Similarity", IEEE TIP 13(4) 2004, eq. 13 with an 11×11 Gaussian window of σ = 1.5 and population
-/// (co)variances, K₁ = .01, K₂ = .03, L = 1, on Rec. 709 luma (.2126 R + .7152 G + .0722 B), averaged over
-/// the positions where the window lies inside (scikit-image: gaussian_weights, use_sample_covariance=False,
-/// data_range=1). Along a side below 11 pixels the window has the largest odd width that fits.
+/// SSIM and multi-scale SSIM are of the Rec. 709 luma (.2126 R + .7152 G + .0722 B).
 ///
 /// Throws UsageError naming both sizes when they differ, and naming picture ("first", "second"), pixel and
 /// channel for a value that is not finite.
 Metrics compare_images(const Image& a, const Image& b, const glm::dvec3& background_a = glm::dvec3(0),
                        const glm::dvec3& background_b = glm::dvec3(0));
 
-/// Names and values as `slicelens compare` gives them: psnr, psnr_covered, ssim, rmse, mean_abs, max_abs,
-/// over_1_255, width, height. Nothing stands for JSON's null.
+/// Names and values as `slicelens compare` gives them: metric_names(), then width and height. Nothing stands
+/// for JSON's null.
 std::vector<std::pair<std::string, std::optional<double>>> as_pairs(const Metrics& metrics);
+
+/// Fraction of the R, G and B values with |d| > k/255 + 10⁻⁶ (the rule of over_1_255), k ≥ 0. Throws as
+/// compare_images does.
+double fraction_over(const Image& a, const Image& b, double k, const glm::dvec3& background_a = glm::dvec3(0),
+                     const glm::dvec3& background_b = glm::dvec3(0));
+
+/// psnr, psnr_covered, ssim, ms_ssim, flip, rmse, mean_abs, max_abs, over_1_255: the names that measure
+/// takes, besides over_K_255 for K from 1 to 254.
+const std::vector<std::string>& metric_names();
+
+/// Throws UsageError naming the nearest known name unless measure takes `name`.
+void validate_metric(const std::string& name);
+
+/// The metrics of these names, in their order, each as compare_images gives it. Computes no others, so that
+/// who does not ask for FLIP does not wait for it. Throws as validate_metric and compare_images do.
+std::vector<std::pair<std::string, std::optional<double>>>
+measure(const std::vector<std::string>& names, const Image& a, const Image& b,
+        const glm::dvec3& background_a = glm::dvec3(0), const glm::dvec3& background_b = glm::dvec3(0));
 
 } // namespace slicelens

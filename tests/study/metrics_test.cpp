@@ -199,11 +199,88 @@ TEST_CASE("the pairs have the contract's names in order") {
   std::string names;
   for (const auto& [name, value] : as_pairs(m)) {
     names += name + " ";
-    CHECK(value.has_value() == (name != "psnr" && name != "psnr_covered"));
+    CHECK(value.has_value() == (name != "psnr" && name != "psnr_covered" && name != "ms_ssim"));
     if (name == "rmse")
       CHECK(*value == 7);
     if (name == "height")
       CHECK(*value == 15);
   }
-  CHECK(names == "psnr psnr_covered ssim rmse mean_abs max_abs over_1_255 width height ");
+  CHECK(names == "psnr psnr_covered ssim ms_ssim flip rmse mean_abs max_abs over_1_255 width height ");
+}
+
+TEST_CASE("multi-scale SSIM of even pictures is the last scale's luminance term") {
+  // Without structure contrast and structure are 1 at every scale; the fifth has luminance to the power
+  // .1333.
+  const double luminance = (2 * 0.25 * 0.75 + 1e-4) / (0.0625 + 0.5625 + 1e-4);
+  const Metrics m = compare_images(grey_image(176, 180, 0.25F), grey_image(176, 180, 0.75F));
+  REQUIRE(m.ms_ssim);
+  CHECK(*m.ms_ssim == Approx(std::pow(luminance, 0.1333)).epsilon(1e-9));
+  const Image image = textured_image(176, 176, 0, 1);
+  CHECK(*compare_images(image, image).ms_ssim == 1);
+  // A side too short for five scales has none.
+  CHECK_FALSE(compare_images(grey_image(175, 300, 0.25F), grey_image(175, 300, 0.75F)).ms_ssim);
+}
+
+TEST_CASE("multi-scale SSIM looks at coarser scales than SSIM") {
+  // A fine checkerboard of ±1/8 about 1/2 against its negative: at scale 1 they are opposed (contrast times
+  // structure (C₂ − 2v)/(C₂ + 2v), negative, counts as 0), so the product is 0. Against even grey it is
+  // C₂/(C₂ + v) with v the variance under the window, 1/64 but for the window's own imbalance of 1e-6; from
+  // the second scale on both pictures are even grey, and so 1.
+  Image board = grey_image(176, 176, 0.5F);
+  Image negative = board;
+  for (int y = 0; y < 176; ++y) {
+    for (int x = 0; x < 176; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        channel(board, x, y, c) = (x + y) % 2 == 0 ? 0.625F : 0.375F;
+        channel(negative, x, y, c) = (x + y) % 2 == 0 ? 0.375F : 0.625F;
+      }
+    }
+  }
+  CHECK(*compare_images(board, negative).ms_ssim == 0);
+  CHECK(compare_images(board, negative).ssim < 0);
+  const double contrast = 9e-4 / (9e-4 + 1.0 / 64);
+  CHECK(*compare_images(board, grey_image(176, 176, 0.5F)).ms_ssim ==
+        Approx(std::pow(contrast, 0.0448)).epsilon(1e-5));
+}
+
+TEST_CASE("the fraction over k steps, for any k") {
+  Image a = grey_image(256, 1, 0);
+  Image b = a;
+  for (int k = 0; k < 256; ++k) // pixel k differs by k steps in red
+    channel(b, k, 0, 0) = static_cast<float>(k) / 255;
+  CHECK(fraction_over(a, b, 0) == Approx(255.0 / 768));
+  CHECK(fraction_over(a, b, 1) == Approx(254.0 / 768));
+  CHECK(fraction_over(a, b, 8) == Approx(247.0 / 768));
+  CHECK(fraction_over(a, b, 254) == Approx(1.0 / 768));
+  CHECK(fraction_over(a, b, 255) == 0);
+  CHECK(fraction_over(a, b, 1) == compare_images(a, b).over_1_255);
+  CHECK_THROWS_AS(fraction_over(a, grey_image(3, 3, 0), 1), UsageError);
+}
+
+TEST_CASE("metrics are measured by name, in the order asked for") {
+  const Image a = textured_image(180, 176, 0, 1);
+  const Image b = textured_image(180, 176, 0.1, 2);
+  std::vector<std::string> names = metric_names();
+  names.push_back("over_8_255");
+  names.insert(names.begin(), "ssim");
+  const auto measured = measure(names, a, b);
+  REQUIRE(measured.size() == names.size());
+  const auto all = as_pairs(compare_images(a, b));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    CAPTURE(names[i]);
+    CHECK(measured[i].first == names[i]);
+    for (const auto& [name, value] : all) {
+      if (name == names[i])
+        CHECK(measured[i].second == value);
+    }
+  }
+  CHECK(*measured.back().second == fraction_over(a, b, 8));
+  CHECK(measure({}, a, b).empty());
+  CHECK_FALSE(measure({"psnr"}, a, a)[0].second);
+  const std::string unknown = message_of([] { validate_metric("psrn"); });
+  CHECK(unknown.find("'psrn'") != std::string::npos);
+  CHECK(unknown.find("psnr?") != std::string::npos);
+  for (const char* name : {"over_0_255", "over_255_255", "over_01_255", "over_x_255", "", "width"})
+    CHECK_THROWS_AS(validate_metric(name), UsageError);
+  CHECK_THROWS_AS(measure({"ssim", "nothing"}, a, b), UsageError);
 }

@@ -192,8 +192,8 @@ TEST_CASE("a scene's paths count from its own folder") {
 TEST_CASE("compare prints the metrics' contract and writes the pictures") {
   const Workplace place;
   put(place / "s.json", small_scene);
-  const Words keys = {"psnr",    "psnr_covered", "ssim",  "rmse",  "mean_abs",
-                      "max_abs", "over_1_255",   "width", "height"};
+  const Words keys = {"psnr",     "psnr_covered", "ssim",       "ms_ssim", "flip",  "rmse",
+                      "mean_abs", "max_abs",      "over_1_255", "width",   "height"};
   const Json same = Json::parse(done(place, {"compare", "s.json", "s.json"}).out);
   for (const std::string& key : keys)
     CHECK(same.contains(key));
@@ -202,6 +202,8 @@ TEST_CASE("compare prints the metrics' contract and writes the pictures") {
   CHECK(same["max_abs"] == 0.0);
   CHECK(same["over_1_255"] == 0.0);
   CHECK(same["ssim"].get<double>() == Approx(1));
+  CHECK(same["ms_ssim"].is_null()); // five scales do not fit in 24 pixels
+  CHECK(same["flip"] == 0.0);
   CHECK(same["width"] == 24);
   CHECK(same["height"] == 20);
 
@@ -215,7 +217,7 @@ TEST_CASE("compare prints the metrics' contract and writes the pictures") {
   CHECK(metrics["max_abs"].get<double>() == Approx(0.5).margin(1e-3));
   CHECK(metrics["psnr"].get<double>() == Approx(6.0206).margin(0.02)); // 20·log10(1/0.5)
   CHECK(metrics["over_1_255"] == 1.0);
-  for (const char* name : {"a.png", "b.png", "difference_x8.png"})
+  for (const char* name : {"a.png", "b.png", "difference_x8.png", "flip.png"})
     CHECK(png_size(contents(place / "d" / name)) == std::pair(24u, 20u));
   CHECK(png_size(contents(place / "d" / "heatmap.png")) == std::pair(24u, 42u)); // with its colour bar
   CHECK_THAT(outcome.err, Contains("times 8"));

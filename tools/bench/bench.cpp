@@ -35,15 +35,7 @@ Quartiles ratios(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 std::uint64_t fragments_of(const gl::Functions& gl, const std::function<void()>& draw) {
-  GLuint name = 0;
-  gl.GenQueries(1, &name);
-  const gl::Query query(gl, name);
-  gl.BeginQuery(GL_SAMPLES_PASSED, name);
-  draw();
-  gl.EndQuery(GL_SAMPLES_PASSED);
-  GLuint64 count = 0;
-  gl.GetQueryObjectui64v(name, GL_QUERY_RESULT, &count);
-  return count;
+  return gl::samples_passed(gl, draw);
 }
 
 Scene phantom_scene(const BenchOptions& options) {

@@ -42,7 +42,7 @@ std::array<double, phase_count> run_once(const Scene& scene, std::string& dims) 
   const RenderTimes& t = result.times;
   seconds[2] = t.upload;
   seconds[3] = t.compile;
-  seconds[4] = t.slice;
+  seconds[4] = t.slice + t.tessellate;
   seconds[5] = t.draw;
   seconds[6] = t.read;
   seconds_since(mark);

@@ -8,6 +8,7 @@
 #include "scene/load.h"
 #include "scene/load_warps.h"
 #include "scene/scene_json.h"
+#include "study/flip.h"
 #include "study/inputs.h"
 #include "study/metrics.h"
 
@@ -91,9 +92,11 @@ void write_pictures(const CompareOptions& options, const Side& a, const Side& b)
   const std::string name = "difference_x" + number_text(options.factor) + ".png";
   write_image(difference_image(a.image, b.image, options.factor), folder / name, PixelDepth::png8);
   write_image(heat_map(a.image, b.image, 1 / options.factor), folder / "heatmap.png", PixelDepth::png8);
-  std::fprintf(stderr, "%s: difference times %s; heat map from 0 (black) to %s (brightest)\n",
-               options.folder.c_str(), number_text(options.factor).c_str(),
-               number_text(1 / options.factor).c_str());
+  write_image(flip_picture(flip_errors(a.image, b.image, a.background, b.background)), folder / "flip.png",
+              PixelDepth::png8);
+  std::fprintf(
+      stderr, "%s: difference times %s; heat map from 0 (black) to %s (brightest); FLIP from 0 to 1\n",
+      options.folder.c_str(), number_text(options.factor).c_str(), number_text(1 / options.factor).c_str());
 }
 
 } // namespace

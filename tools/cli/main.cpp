@@ -104,13 +104,17 @@ void add_compare(CLI::App& app, CompareOptions& options, std::function<void()>& 
       "  slicelens compare head.json --set-a render.pipeline=slices --set-b render.pipeline=rays\n\n"
       "psnr (dB, null when equal) and the other metrics are over RGB on the background; psnr_covered is over "
       "the pixels that\n"
-      "either picture covers; over_1_255 is the fraction of values that differ by more than 1/255.");
+      "either picture covers; over_1_255 is the fraction of values that differ by more than 1/255; ssim and "
+      "ms_ssim (null below\n"
+      "176 pixels) are of the luma; flip is the mean FLIP error, 67 pixels per degree. docs/metrics.md "
+      "explains "
+      "them.");
   command.add_option("a", options.a, "first picture, scene or volume")->required()->type_name("");
   command.add_option("b", options.b, "second one; default: the first again, with --set-a and --set-b")
       ->type_name("");
   command
       .add_option("-o,--output", options.folder,
-                  "folder for both pictures, the amplified difference and a heat map")
+                  "folder for both pictures, the amplified difference, a heat map and FLIP's error map")
       ->type_name("DIR");
   add_set(command, options.set, "--set", "change a scene key on both sides");
   add_set(command, options.set_a, "--set-a", "change a scene key of the first side");
@@ -382,6 +386,52 @@ void add_camera(CLI::App& app, CameraOptions& options, std::function<void()>& ru
   command.callback([&options, &run] { run = [&options] { run_camera(options); }; });
 }
 
+void add_study(CLI::App& app, StudyOptions& options, std::function<void()>& run) {
+  CLI::App& command = *app.add_subcommand(
+      "study", "measure quality and time of every combination that a study file names, and report them");
+  command.footer(
+      "Writes results.csv, results.json, report.html and the pictures into DIR, and keeps every measurement "
+      "in "
+      "journal.jsonl:\ncalled again, an interrupted study goes on where it was. A combination that fails is "
+      "listed and does not stop the others;\nthe exit status is then 1. Shards go into folders of their own "
+      "and are joined by --merge.\n\n"
+      "  slicelens study studies/lamar-table3.json -o lamar3\n"
+      "  slicelens study sweep.json --shard 1/4 -o part1        # on four machines, or by GNU parallel\n"
+      "  slicelens study sweep.json --merge part1 --merge part2 --merge part3 --merge part4 -o all");
+  command.add_option("input", options.input, "STUDY, a .json file (docs/studies.md)")
+      ->required()
+      ->type_name("");
+  command.add_option("-o,--output", options.output, "folder to write; default: the study's name")
+      ->type_name("DIR");
+  add_set(command, options.set, "--set",
+          "change a scene key of every combination, unless it varies; may be given again");
+  command.add_flag("--quick", options.quick, "the study's own short form (its part \"quick\")");
+  command.add_flag("--fresh", options.fresh, "put earlier results in DIR aside and measure everything anew");
+  command.add_option("--shard", options.shard, "measure the i-th of n parts only")->type_name("i/n");
+  command.add_option("--merge", options.merge, "a folder that a shard wrote; may be given again")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
+  command.callback([&options, &run] { run = [&options] { run_study_command(options); }; });
+}
+
+void add_tables(CLI::App& app, TablesOptions& options, std::function<void()>& run) {
+  CLI::App& command = *app.add_subcommand(
+      "tables", "make the tables and numbers of documents anew from the results of studies");
+  command.footer("Replaces what stands between the marks <!-- study NAME: COLUMNS --> and <!-- end --> of "
+                 "Markdown files "
+                 "(docs/studies.md)\nand names the files that changed.\n\n"
+                 "  slicelens tables docs/benchmarks.md --results out/studies");
+  command.add_option("documents", options.documents, "Markdown files")->required()->type_name("");
+  command
+      .add_option("--results", options.results,
+                  "folder with a folder for each study, as slicelens study wrote it")
+      ->required()
+      ->type_name("DIR");
+  command.add_flag("--check", options.check, "change nothing; exit status 1 where a document would change");
+  command.callback([&options, &run] { run = [&options] { run_tables(options); }; });
+}
+
 /// An error's text as one line on stderr.
 int fail(const std::string& message, int status) {
   end_progress();
@@ -448,6 +498,8 @@ int run_program(int argc, char** argv) {
   SliceOptions slice;
   TransferOptions transfer;
   CameraOptions camera;
+  StudyOptions study;
+  TablesOptions tables;
   add_render(app, render, run);
   add_lens(app, lens, run);
   add_compare(app, compare, run);
@@ -462,6 +514,8 @@ int run_program(int argc, char** argv) {
   add_slice(app, slice, run);
   add_transfer(app, transfer, run);
   add_camera(app, camera, run);
+  add_study(app, study, run);
+  add_tables(app, tables, run);
   try {
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);

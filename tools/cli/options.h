@@ -128,6 +128,22 @@ struct CameraOptions {
   std::vector<std::string> set;
 };
 
+struct StudyOptions {
+  std::string input;
+  std::string output; ///< folder; empty: the study's name
+  std::vector<std::string> set;
+  bool quick = false;
+  bool fresh = false;
+  std::string shard;              ///< "i/n"; empty: all
+  std::vector<std::string> merge; ///< folders of shards
+};
+
+struct TablesOptions {
+  std::vector<std::string> documents;
+  std::string results; ///< folder with a folder for each study
+  bool check = false;
+};
+
 // Each runs one command and returns; results go to stdout and files, the rest to stderr. They throw the
 // errors of core/errors.h.
 void run_render(const RenderOptions& options);
@@ -144,5 +160,7 @@ void run_pick(const PickOptions& options);
 void run_slice(const SliceOptions& options);
 void run_transfer(const TransferOptions& options);
 void run_camera(const CameraOptions& options);
+void run_study_command(const StudyOptions& options);
+void run_tables(const TablesOptions& options);
 
 } // namespace slicelens::cli

@@ -110,7 +110,7 @@ void print_verbose(const RenderResult& result, const PreparedScene& prepared, do
                "load       %8.3f s\ncodec      %8.3f s\ncontext    %8.3f s\nupload     %8.3f s\ncompile    "
                "%8.3f s\nslice      "
                "%8.3f s\ndraw       %8.3f s",
-               load, codec, t.context, t.upload, t.compile, t.slice, t.draw);
+               load, codec, t.context, t.upload, t.compile, t.slice + t.tessellate, t.draw);
   if (t.gpu_draw)
     std::fprintf(stderr, "  (driver's timer %.3f s)", *t.gpu_draw);
   std::fprintf(stderr, "\nread       %8.3f s\nwrite      %8.3f s\n", t.read, write);
