@@ -357,6 +357,10 @@ void add_transfer(CLI::App& app, TransferOptions& options, std::function<void()>
   command.add_option("--map", options.map, "name of the colour map in a ParaView file that holds several")
       ->type_name("NAME");
   command
+      .add_option("--volume", options.volume, "of several volumes of a scene, whose function it is, from 0")
+      ->check(CLI::Range(0, 3))
+      ->type_name("I");
+  command
       .add_option("--range", options.range,
                   "data values of the first and the last point of a file, relative preset or written table")
       ->delimiter(',')

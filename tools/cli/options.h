@@ -116,6 +116,7 @@ struct TransferOptions {
   std::string input;  ///< preset, file of another program, scene, volume or picture
   std::string output; ///< .json, .vp, .vp.json or .1dt; empty: the section of a scene on stdout
   std::string map;    ///< of a file that holds several
+  int volume = 0;     ///< of a scene's several, whose function it is
   std::vector<double> range;
   std::size_t rows = 256; ///< of .1dt
   std::vector<std::string> set;
