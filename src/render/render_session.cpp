@@ -64,19 +64,22 @@ void RenderSession::draw_frame(const Progress& progress) {
   std::visit([&](auto& renderer) { renderer.draw(*prepared_, textures_, target_, progress); }, *renderer_);
 }
 
-DrawTime RenderSession::draw(const Progress& progress) {
+DrawTime RenderSession::draw(const Progress& progress, std::size_t batch) {
   const gl::Functions& gl = context_->functions();
   gl::finish(gl);
   DrawTime time;
   Clock::time_point mark = Clock::now();
   gl::TimerQuery query(gl);
   query.begin();
-  draw_frame(progress);
+  for (std::size_t i = 0; i < batch; ++i) {
+    draw_frame(progress);
+    gl.Flush();
+  }
   gl::finish(gl);
   query.end();
-  time.wall = lap(mark);
+  time.wall = lap(mark) / static_cast<double>(batch);
   if (const auto nanoseconds = query.result_nanoseconds())
-    time.gpu = static_cast<double>(*nanoseconds) * 1e-9;
+    time.gpu = static_cast<double>(*nanoseconds) * 1e-9 / static_cast<double>(batch);
   return time;
 }
 

@@ -40,9 +40,10 @@ public:
 
   const SetUpTimes& set_up() const { return set_up_; }
 
-  /// Draws one frame and waits for its end. Reports the stage "draw" when `progress` listens, at the price of
-  /// waiting for the driver a few dozen times.
-  DrawTime draw(const Progress& progress);
+  /// Draws `batch` frames in a row, each handed to the driver at once, and waits for the end; the times are
+  /// those of one. Reports the stage "draw" when `progress` listens, at the price of waiting for the driver a
+  /// few dozen times.
+  DrawTime draw(const Progress& progress, std::size_t batch = 1);
   /// What was drawn: associated colour, without background and overlays.
   Image read() const;
   /// Fragments that one frame hands to blending (GL_SAMPLES_PASSED; draws a frame). Rays have one a pixel.

@@ -46,13 +46,26 @@ Combination combination_at(const Study& study, std::size_t number) {
   return combination;
 }
 
-SceneInput input_of(const BaseScene& base, const std::vector<KeyValue>& changes, const Study& study,
-                    const std::string& name) {
+std::string source_of(const BaseScene& base, const std::string& name) {
+  return name.empty() ? base.source : base.source + " (" + name + ")";
+}
+
+SceneInput volume_input(const BaseScene& base, const std::vector<KeyValue>& changes, const Study& study,
+                        const std::string& name) {
   SceneInput input;
-  input.source = name.empty() ? base.source : base.source + " (" + name + ")";
+  input.source = source_of(base, name);
   input.scene = scene_from_json(base.text, input.source, changes);
   input.folders = {base.folder, study.folder, "."};
   return input;
+}
+
+StudyInput any_input(const BaseScene& base, const std::vector<KeyValue>& changes, const Study& study,
+                     const std::string& name) {
+  if (!is_image_scene(base.text))
+    return volume_input(base, changes, study, name);
+  const std::string source = source_of(base, name);
+  return PictureInput{
+      image_scene_from_json(base.text, source, changes), {base.folder, study.folder, "."}, source};
 }
 
 } // namespace
@@ -97,19 +110,34 @@ std::string label_text(const std::vector<Label>& labels) {
 }
 
 SceneInput scene_of(const Study& study, const Combination& combination) {
-  return input_of(study.scenes[combination.scene], combination.changes, study,
-                  label_text(combination.labels));
+  return volume_input(study.scenes[combination.scene], combination.changes, study,
+                      label_text(combination.labels));
 }
 
-std::optional<SceneInput> reference_of(const Study& study, const Combination& combination) {
+StudyInput input_of(const Study& study, const Combination& combination) {
+  return any_input(study.scenes[combination.scene], combination.changes, study,
+                   label_text(combination.labels));
+}
+
+std::optional<StudyInput> reference_of(const Study& study, const Combination& combination) {
   if (!study.reference)
     return std::nullopt;
   const ReferenceScene& reference = *study.reference;
   if (reference.scene)
-    return input_of(*reference.scene, reference.changes, study, "reference");
+    return any_input(*reference.scene, reference.changes, study, "reference");
   std::vector<KeyValue> changes = combination.changes;
   changes.insert(changes.end(), reference.changes.begin(), reference.changes.end());
-  return input_of(study.scenes[combination.scene], changes, study, "reference");
+  return any_input(study.scenes[combination.scene], changes, study, "reference");
+}
+
+std::string scene_text_of(const StudyInput& input) {
+  if (const auto* volume = std::get_if<SceneInput>(&input))
+    return scene_to_json(volume->scene, -1);
+  return image_scene_to_json(std::get<PictureInput>(input).scene, -1);
+}
+
+glm::dvec3 background_of(const StudyInput& input) {
+  return std::visit([](const auto& one) { return glm::dvec3(one.scene.render.background); }, input);
 }
 
 std::optional<std::size_t> baseline_of(const Study& study, const std::vector<Combination>& all,

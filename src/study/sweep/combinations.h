@@ -1,10 +1,25 @@
 // Every combination of what a study varies, and the scenes that follow from it.
 #pragma once
 
+#include "scene/image_scene.h"
 #include "study/inputs.h"
 #include "study/sweep/study.h"
 
+#include <glm/glm.hpp>
+
+#include <variant>
+
 namespace slicelens {
+
+/// A 2D scene (`slicelens lens`) and where its relative paths count from.
+struct PictureInput {
+  ImageScene scene;
+  std::vector<std::filesystem::path> folders;
+  std::string source;
+};
+
+/// What is drawn: a volume's scene or a picture's.
+using StudyInput = std::variant<SceneInput, PictureInput>;
 
 struct Combination {
   std::size_t index = 0; ///< counted from 0 in the study's order: the last axis changes fastest
@@ -26,8 +41,17 @@ std::string label_text(const std::vector<Label>& labels);
 /// together.
 SceneInput scene_of(const Study& study, const Combination& combination);
 
+/// The same for studies of either kind.
+StudyInput input_of(const Study& study, const Combination& combination);
+
 /// The scene that its picture is compared with, or nothing. Throws as scene_of does.
-std::optional<SceneInput> reference_of(const Study& study, const Combination& combination);
+std::optional<StudyInput> reference_of(const Study& study, const Combination& combination);
+
+/// The whole scene on one line.
+std::string scene_text_of(const StudyInput& input);
+
+/// What its picture lies over, without opacity.
+glm::dvec3 background_of(const StudyInput& input);
 
 /// The index of the combination that differs only in what timing.baseline says, or nothing where there is
 /// none.

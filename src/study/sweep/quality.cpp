@@ -34,7 +34,7 @@ void check_metric(const std::string& name, const std::string& path) {
 
 bool needs_reference(const std::string& metric) { return !is_lens_metric(metric); }
 
-std::vector<Value> measure_quality(const std::vector<std::string>& metrics, const PreparedScene& prepared,
+std::vector<Value> measure_quality(const std::vector<std::string>& metrics, const PreparedScene* prepared,
                                    const Shown& picture, const Shown& reference) {
   std::vector<std::string> of_pictures;
   std::vector<std::string> of_lenses;
@@ -44,7 +44,10 @@ std::vector<Value> measure_quality(const std::vector<std::string>& metrics, cons
   if (!of_pictures.empty())
     measured =
         measure(of_pictures, *picture.image, *reference.image, picture.background, reference.background);
-  const std::vector<Value> lens = measure_lens(of_lenses, prepared);
+  if (prepared == nullptr && !of_lenses.empty())
+    throw UsageError("metric '" + of_lenses.front() + "' is of lenses in volumes; a picture's lens has none");
+  const std::vector<Value> lens =
+      of_lenses.empty() ? std::vector<Value>{} : measure_lens(of_lenses, *prepared);
   measured.insert(measured.end(), lens.begin(), lens.end());
   std::vector<Value> values;
   for (const std::string& name : metrics)

@@ -30,8 +30,8 @@ struct Shown {
 };
 
 /// Every named metric of `picture` against `reference` (whose image is null where none is needed), and of the
-/// scene's warp. Throws UsageError as the metrics do.
-std::vector<Value> measure_quality(const std::vector<std::string>& metrics, const PreparedScene& prepared,
+/// warp of `prepared` (null for 2D lenses, which have no such metrics). Throws UsageError as the metrics do.
+std::vector<Value> measure_quality(const std::vector<std::string>& metrics, const PreparedScene* prepared,
                                    const Shown& picture, const Shown& reference);
 
 } // namespace slicelens

@@ -69,7 +69,7 @@ std::string reduced_png(const fs::path& file) {
   if (factor < 1)
     image = resize(image, std::max(1, static_cast<int>(image.width * factor)),
                    std::max(1, static_cast<int>(image.height * factor)));
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_image(image, folder / "reduced.png", PixelDepth::png8);
   return read_text(folder / "reduced.png", most_bytes);
 }

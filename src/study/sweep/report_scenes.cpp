@@ -1,4 +1,5 @@
 // The report's list of every row's scene and of the command that renders it alone.
+#include "scene/image_scene.h"
 #include "study/sweep/report_parts.h"
 #include "study/sweep/study_json.h"
 
@@ -30,16 +31,22 @@ std::string readable(const Json& json, std::size_t indent = 0) {
   return (json.is_object() ? "{\n" : "[\n") + text + "\n" + end + (json.is_object() ? "}" : "]");
 }
 
+/// What draws the scene in a file, up to its name.
+std::string command_of(const Row& row) {
+  if (row.combination.peer)
+    return "tools/render_with_vtk --mapper " + *row.combination.peer;
+  return is_image_scene(row.scene) ? "slicelens lens" : "slicelens render";
+}
+
 std::string row_html(const Row& row, bool with_scene) {
   const std::string index = std::to_string(row.combination.index);
-  std::string inner;
-  if (row.combination.peer)
-    inner += "<p>Drawn by VTK; Slicelens draws the same scene with slices.</p>\n";
-  inner += "<pre class=\"command\">slicelens render scene.json -o row-" + index + ".png</pre>\n";
+  const std::string command = command_of(row);
+  const std::string output = " -o row-" + index + ".png</pre>\n";
+  std::string inner = "<pre class=\"command\">" + escaped(command) + " scene.json" + output;
   const auto picture = row.texts.find("picture");
-  if (picture != row.texts.end())
-    inner += "<p>or, from this folder, of the picture itself:</p>\n<pre class=\"command\">slicelens render " +
-             escaped(picture->second) + " -o row-" + index + ".png</pre>\n";
+  if (picture != row.texts.end() && !row.combination.peer)
+    inner += "<p>or, from this folder, of the picture itself:</p>\n<pre class=\"command\">" +
+             escaped(command) + " " + escaped(picture->second) + output;
   if (row.scene.empty())
     inner = element("p", "There is no such scene" +
                              std::string(row.error.empty() ? "." : ": " + escaped(row.error)));

@@ -137,9 +137,11 @@ std::string baseline_html(const TimingProtocol& timing) {
   std::string html;
   for (const Label& label : timing.baseline)
     html += (html.empty() ? "" : ", ") + code(label.first + " = " + label.second);
-  return html.empty() ? ""
-                      : " <code>rate</code> is the time of the baseline (" + html +
-                            ") by the row's own, of the same round, and its median and quartiles.";
+  return html.empty()
+             ? ""
+             : " <code>rate</code> is the time of the baseline (" + html + ") by the row's own" +
+                   (timing.beside ? ", drawn just before it at every visit" : ", of the same round") +
+                   "; median and quartiles of these ratios.";
 }
 
 std::string times(std::size_t count, const std::string& one, const std::string& many) {
@@ -162,6 +164,9 @@ std::string timing_text(const StudyResults& results) {
           times(timing.warm_up, "frame", "frames") + " that " + (timing.warm_up == 1 ? "does" : "do") +
           " not count and " + times(timing.frames, "that does", "that do") +
           (timing.frames > 1 ? "; its time is their median" : "") +
+          (timing.batch > 1 ? "; each is " + std::to_string(timing.batch) +
+                                  " pictures in a row, and its time theirs by that number"
+                            : "") +
           ". Tables give the median of the visits, first and third quartile in brackets, and their number "
           "<i>n</i>.";
   const std::size_t fewest = smallest_repetitions(timing.confidence);

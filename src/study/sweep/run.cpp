@@ -143,7 +143,7 @@ private:
   void find_states(bool all);
   void draw_pictures(Journal& journal);
   void draw_picture(Journal& journal, const Combination& combination);
-  const Image& reference_image(const SceneInput& input, const std::string& name);
+  const Image& reference_image(const StudyInput& input, const std::string& name);
   void time_rounds(Journal& journal);
   void time_round(Journal& journal, std::size_t round, Estimate& estimate);
   void visit(Journal& journal, std::size_t index, std::size_t round);
@@ -186,22 +186,22 @@ void Sweep::find_states(bool all) {
     if (!all && !is_own(one) && baselines.count(one.index) == 0)
       continue;
     errors_[one.index] = failure_of([&] {
-      const SceneInput input = scene_of(study_, one);
-      const std::string sha256 = visitor_.store().sha256(input);
-      const std::string scene = scene_to_json(input.scene, -1);
+      const StudyInput input = input_of(study_, one);
+      const std::string sha256 = visitor_.sha256(input);
+      const std::string scene = scene_text_of(input);
       CombinationState state;
       state.id =
           content_name(label_text(one.labels) + "\n" + scene + "\n" + sha256 + "\n" + one.peer.value_or(""));
       state.of = metrics;
       if (const auto reference = reference_of(study_, one))
-        state.of += scene_to_json(reference->scene, -1) + visitor_.store().sha256(*reference);
+        state.of += scene_text_of(*reference) + visitor_.sha256(*reference);
       state.of = content_name(state.of);
       states_[one.index] = state;
     });
   }
 }
 
-const Image& Sweep::reference_image(const SceneInput& input, const std::string& name) {
+const Image& Sweep::reference_image(const StudyInput& input, const std::string& name) {
   const auto found = std::find_if(references_.begin(), references_.end(),
                                   [&](const auto& entry) { return entry.first == name; });
   if (found != references_.end()) {
@@ -225,19 +225,16 @@ void Sweep::draw_picture(Journal& journal, const Combination& combination) {
   const Image* reference = nullptr;
   std::string reference_name;
   errors_[combination.index] = failure_of([&] {
-    const SceneInput input = scene_of(study_, combination);
-    glm::dvec3 background_of_reference(0);
+    const StudyInput input = input_of(study_, combination);
+    Shown compared_with;
     if (const auto reference_input = reference_of(study_, combination)) {
-      reference_name =
-          content_name(scene_to_json(reference_input->scene, -1) + visitor_.store().sha256(*reference_input));
+      reference_name = content_name(scene_text_of(*reference_input) + visitor_.sha256(*reference_input));
       reference = &reference_image(*reference_input, reference_name);
-      background_of_reference = glm::dvec3(reference_input->scene.render.background);
+      compared_with = {reference, background_of(*reference_input)};
     }
     DrawnPicture drawn = visitor_.draw(input, combination.peer, progress_);
-    const PreparedScene& prepared = visitor_.store().get(input, progress_);
-    quality.values =
-        measure_quality(study_.metrics, prepared, {&drawn.image, glm::dvec3(input.scene.render.background)},
-                        {reference, background_of_reference});
+    quality.values = measure_quality(study_.metrics, visitor_.prepared(input, progress_),
+                                     {&drawn.image, background_of(input)}, compared_with);
     quality.values.insert(quality.values.end(), drawn.counts.begin(), drawn.counts.end());
     quality.texts = drawn.texts;
     picture = std::move(drawn.image);
@@ -294,18 +291,27 @@ std::vector<std::size_t> Sweep::visited() const {
 void Sweep::visit(Journal& journal, std::size_t index, std::size_t round) {
   const Combination& one = combinations_[index];
   TimedVisit entry{states_[index]->id, choice_.shard, round, {}};
-  errors_[index] = failure_of(
-      [&] { entry.seconds = visitor_.time(scene_of(study_, one), one.peer, study_.timing, progress_); });
+  errors_[index] = failure_of([&] {
+    const auto baseline = study_.timing.beside ? baseline_of(study_, combinations_, one) : std::nullopt;
+    if (baseline && *baseline != index && states_[*baseline]) {
+      const Combination& other = combinations_[*baseline];
+      for (const auto& [phase, seconds] :
+           visitor_.time(input_of(study_, other), other.peer, study_.timing, progress_)) {
+        if (phase == "draw" || phase == "draw_processor")
+          entry.seconds.emplace_back("baseline_" + phase, seconds);
+      }
+    }
+    const Seconds own = visitor_.time(input_of(study_, one), one.peer, study_.timing, progress_);
+    entry.seconds.insert(entry.seconds.begin(), own.begin(), own.end());
+  });
   if (errors_[index].empty())
     journal.add(entry);
 }
 
 void Sweep::visit_limits(Journal& journal, std::size_t round) {
   TimedVisit entry{"limits", choice_.shard, round, {}};
-  const std::string failure = failure_of([&] {
-    Scene scene = scene_of(study_, combinations_[visited().front()]).scene;
-    entry.seconds = visitor_.time_limits(scene);
-  });
+  const std::string failure = failure_of(
+      [&] { entry.seconds = visitor_.time_limits(input_of(study_, combinations_[visited().front()])); });
   if (failure.empty())
     journal.add(entry);
   else
@@ -366,7 +372,7 @@ StudyResults Sweep::collect_only(const JournalContents& contents) {
   StudyResults results = collect(study_, combinations_, states_, errors_, contents);
   for (Row& row : results.rows) {
     if (states_[row.combination.index])
-      row.scene = scene_to_json(scene_of(study_, row.combination).scene, -1);
+      row.scene = scene_text_of(input_of(study_, row.combination));
   }
   results.command = choice_.command;
   return results;

@@ -147,6 +147,7 @@ void read_timing(Object& parent, Study& study) {
   Object object(*json, parent.path("timing"));
   object.whole("warm_up", timing.warm_up, 1, 1000);
   object.whole("frames", timing.frames, 1, 10000);
+  object.whole("batch", timing.batch, 1, 10000);
   object.whole("rounds", timing.rounds, 1, 10000);
   timing.most_rounds = timing.rounds;
   object.whole("most_rounds", timing.most_rounds, timing.rounds, 10000);
@@ -161,6 +162,11 @@ void read_timing(Object& parent, Study& study) {
       timing.baseline.emplace_back(column, labels.front());
     }
   }
+  std::string pairs = "round";
+  object.text("pairs", pairs);
+  if (pairs != "round" && pairs != "visit")
+    throw UsageError(object.path("pairs") + ": \"" + pairs + "\" is not valid; give round or visit");
+  timing.beside = pairs == "visit";
   timing.skip = conditions_of(object, "skip", study);
   object.finish();
 }
@@ -266,20 +272,26 @@ void read_text(Object& object, Study& study) {
   study.text = join(lines, "\n");
 }
 
+void check_keys(const BaseScene& base, const std::vector<KeyValue>& changes) {
+  if (is_image_scene(base.text))
+    (void)image_scene_from_json(base.text, base.source, changes);
+  else
+    (void)scene_keys_from_json(base.text, base.source, changes);
+}
+
 /// Every scene is read once, so that a wrong key is found before anything is measured.
 void check_scenes(const Study& study) {
   for (const Combination& combination : combinations_of(study)) {
     const BaseScene& base = study.scenes[combination.scene];
-    (void)scene_keys_from_json(base.text, base.source, combination.changes);
+    check_keys(base, combination.changes);
     if (study.reference && !study.reference->scene) {
       std::vector<KeyValue> changes = combination.changes;
       changes.insert(changes.end(), study.reference->changes.begin(), study.reference->changes.end());
-      (void)scene_keys_from_json(base.text, base.source + ": reference", changes);
+      check_keys(base, changes);
     }
   }
   if (study.reference && study.reference->scene)
-    (void)scene_keys_from_json(study.reference->scene->text, study.reference->scene->source,
-                               study.reference->changes);
+    check_keys(*study.reference->scene, study.reference->changes);
 }
 
 } // namespace

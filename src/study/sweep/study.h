@@ -51,12 +51,15 @@ struct TimingProtocol {
   bool measure = true;
   std::size_t warm_up = 1; ///< frames of a visit that do not count; at least one, which compiles the shaders
   std::size_t frames = 1;  ///< that count; the visit's time is their median
+  std::size_t batch =
+      1; ///< pictures that are drawn in a row for one of these frames: its time is theirs ÷ batch
   std::size_t rounds = 5;
   std::size_t most_rounds = 5; ///< where `precision` asks for more
   double confidence = 0.95;    ///< of the interval of the median
   double precision = 0; ///< rounds go on until half the interval is at most this part of the median; 0: off
   std::uint64_t seed = 2006;   ///< of the orders
   std::vector<Label> baseline; ///< what the baseline of a combination has in place of its own; empty: none
+  bool beside = false;         ///< the baseline is timed at every visit, just before; else once a round
   std::vector<Condition> skip; ///< combinations that are not timed
   bool limits = true;          ///< measure the machine's fill rates in every round
 };

@@ -19,28 +19,35 @@ struct DrawnPicture {
   std::map<std::string, std::string> texts; ///< renderer, gl_version, context, texture
 };
 
+/// By phase.
+using Seconds = std::vector<std::pair<std::string, double>>;
+
 /// Draws and times the combinations of one study; holds the context, the volumes and the peers.
 class Visitor {
 public:
   Visitor();
   ~Visitor();
 
-  SceneStore& store();
+  /// Of the files that are shown, worked out once for each; empty for phantoms and patterns. Throws
+  /// FileError.
+  std::string sha256(const StudyInput& input);
+
+  /// The scene with its data, valid until the next call of any function; null for a picture's.
+  const PreparedScene* prepared(const StudyInput& input, const Progress& progress);
 
   /// Draws once. Throws as load and render do.
-  DrawnPicture draw(const SceneInput& input, const std::optional<std::string>& peer,
+  DrawnPicture draw(const StudyInput& input, const std::optional<std::string>& peer,
                     const Progress& progress);
 
   /// Seconds of the phases: upload, compile, slice, tessellate, draw, draw_gpu (where the driver has a
   /// timer), draw_processor (of all threads), read. Each is the median of the protocol's frames, after its
   /// warm-up.
-  std::vector<std::pair<std::string, double>> time(const SceneInput& input,
-                                                   const std::optional<std::string>& peer,
-                                                   const TimingProtocol& protocol, const Progress& progress);
+  Seconds time(const StudyInput& input, const std::optional<std::string>& peer,
+               const TimingProtocol& protocol, const Progress& progress);
 
   /// The machine's fill rates in fragments a second: untextured, textured, classified. Opens a context of the
   /// kind that `like` asks for.
-  std::vector<std::pair<std::string, double>> time_limits(const Scene& like);
+  Seconds time_limits(const StudyInput& like);
 
 private:
   struct State;

@@ -189,6 +189,16 @@ TEST_CASE("a report has every row, its scene, failures, papers' numbers, and not
   CHECK(html == report_html(with_failures(), "nowhere"));
 }
 
+TEST_CASE("a row's command is that of its kind of scene") {
+  StudyResults results = results_of(spacing_study);
+  results.rows[1].scene = R"({"image": {"pattern": "checkerboard"}})";
+  results.rows[2].combination.peer = "cpu";
+  const std::string html = report::scenes_html(results);
+  CHECK(has(html, ">slicelens render scene.json -o row-0.png<"));
+  CHECK(has(html, ">slicelens lens scene.json -o row-1.png<"));
+  CHECK(has(html, ">tools/render_with_vtk --mapper cpu scene.json -o row-2.png<"));
+}
+
 TEST_CASE("the study's columns make the table, with the paper's beside") {
   StudyResults results = with_failures();
   results.study.columns = {"render.spacing", "rate"};

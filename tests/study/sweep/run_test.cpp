@@ -175,3 +175,18 @@ TEST_CASE("folders and shards that cannot be are refused") {
   REQUIRE_THROWS_AS(run_study(study(), file / "below", {}, {}), FileError);
   REQUIRE_THROWS_AS(merge_studies(study(), {folder / "none"}, folder / "merged", "", {}), FileError);
 }
+
+TEST_CASE("2D lenses are compared and timed as volumes are", "[one-driver]") {
+  const TemporaryFolder folder;
+  const StudyResults results = run_study(study(R"({
+    "scene": {"image": {"testcard": {"size": [64, 64]}}, "render": {"target": "rgba32f", "filter": "linear-exact"}},
+    "vary": {"render.pipeline": ["fragment", "lookup", "reference"]},
+    "reference": {"set": {"render.pipeline": "reference"}}, "metrics": ["psnr"],
+    "timing": {"rounds": 2, "batch": 3, "baseline": {"render.pipeline": "fragment"}}})"),
+                                         folder / "out", {}, {});
+  REQUIRE(all_done(results));
+  REQUIRE_FALSE(number_in(results, results.rows[2], "psnr").has_value()); // equal
+  // The formula at each fragment, against the same in doubles: floats of 24 bits (docs/tolerances.md).
+  REQUIRE(*number_in(results, results.rows[0], "psnr") > 80);
+  REQUIRE(results.rows[1].rate->values.size() == 2);
+}

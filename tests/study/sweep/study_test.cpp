@@ -99,11 +99,12 @@ TEST_CASE("the reference is the combination's scene with changes, or a scene of 
   const Study study =
       read(R"({"vary": {"render.spacing": [2, 1]}, "reference": {"set": {"render.spacing": 0.25}}})");
   const auto all = combinations_of(study);
-  REQUIRE(reference_of(study, all[0])->scene.render.spacing == 0.25);
+  REQUIRE(std::get<SceneInput>(*reference_of(study, all[0])).scene.render.spacing == 0.25);
   const Study other =
       read(R"({"vary": {"render.spacing": [2, 1]}, "reference": {"scene": {"camera": {"azimuth": 7}}}})");
-  REQUIRE(reference_of(other, all[0])->scene.camera.azimuth == 7);
-  REQUIRE(reference_of(other, all[0])->scene.render.spacing == 1); // the default: nothing varies there
+  REQUIRE(std::get<SceneInput>(*reference_of(other, all[0])).scene.camera.azimuth == 7);
+  REQUIRE(std::get<SceneInput>(*reference_of(other, all[0])).scene.render.spacing ==
+          1); // the default: nothing varies there
   REQUIRE_FALSE(reference_of(read("{}"), combinations_of(read("{}"))[0]).has_value());
 }
 
@@ -164,4 +165,16 @@ TEST_CASE("a study that cannot be meant is refused by name") {
     REQUIRE(refusal(one.json).find(one.says) != std::string::npos);
   }
   REQUIRE_THROWS_AS(read(R"({"scene": "no_such_scene.json"})"), FileError);
+}
+
+TEST_CASE("a study may be of 2D lenses") {
+  const Study study = read(R"({"scene": {"image": {"testcard": {"size": [64, 64]}}},
+    "vary": {"render.pipeline": ["tessellated", "lookup"], "warp.zoom": [2]},
+    "reference": {"set": {"render.pipeline": "reference"}}})");
+  const auto all = combinations_of(study);
+  REQUIRE(std::get<PictureInput>(input_of(study, all[1])).scene.render.pipeline == LensPipeline::lookup);
+  REQUIRE(std::get<PictureInput>(*reference_of(study, all[1])).scene.render.pipeline ==
+          LensPipeline::reference);
+  REQUIRE(refusal(R"({"scene": {"image": {}}, "vary": {"warp.zom": [2]}})").find("warp.zoom") !=
+          std::string::npos);
 }
