@@ -260,8 +260,8 @@ std::vector<ReportChart> charts_of(const StudyResults& results) {
   std::vector<ReportChart> charts;
   add_study_charts(results, charts);
   add_error_chart(results, charts);
-  add_front_chart(results, charts);
   add_time_charts(results, charts);
+  add_front_chart(results, charts);
   return charts;
 }
 

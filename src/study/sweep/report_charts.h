@@ -50,8 +50,9 @@ struct ReportChart {
 inline constexpr std::size_t most_series = 8;
 inline constexpr std::size_t most_panels = 6;
 
-/// Error against render.spacing with the fitted order, time against every varied key of numbers with the
-/// fitted exponent, quality against time with the Pareto front, and the study's own; only what has points.
+/// The study's own, error against render.spacing with the fitted order, time against every varied key of
+/// numbers with the fitted exponent, and quality against time with the Pareto front; of these only what has
+/// points.
 ///
 /// The error is rmse, else what psnr says of it (10^(−psnr/20), peak 1), else mean_abs, max_abs, flip,
 /// 1 − ms_ssim, 1 − ssim. A list of equal numbers ([128, 128]) counts as that number.

@@ -13,7 +13,7 @@ namespace slicelens::report {
 
 namespace {
 
-constexpr int single_width = 560, single_height = 340; // of a chart with one panel
+constexpr int single_width = 576, single_height = 346; // of a chart with one panel
 constexpr int pair_width = 1140, pair_height = 320;    // of two panels side by side
 constexpr std::size_t most_charts = 40;
 constexpr std::size_t most_bytes = std::size_t{4} << 20; ///< of charts
