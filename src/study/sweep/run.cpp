@@ -140,6 +140,7 @@ private:
   bool is_own(const Combination& one) const { return one.index % choice_.shards == choice_.shard - 1; }
   bool is_timed(const Combination& one) const;
   void find_states(bool all);
+  std::string reference_identity(const Combination& combination);
   void draw_pictures(Journal& journal);
   void draw_picture(Journal& journal, const Combination& combination);
   const Image& reference_image(const StudyInput& input, const std::string& name);
@@ -170,6 +171,18 @@ bool Sweep::is_timed(const Combination& one) const {
                       [&](const Condition& skip) { return holds(skip, one.labels); });
 }
 
+/// Scene and data of what the combination is compared with; empty without a reference.
+std::string Sweep::reference_identity(const Combination& combination) {
+  std::string text;
+  const std::string failure = failure_of([&] {
+    if (const auto reference = reference_of(study_, combination))
+      text = scene_text_of(*reference) + visitor_.sha256(*reference);
+  });
+  if (!failure.empty())
+    throw UsageError("the reference cannot be drawn: " + failure);
+  return text;
+}
+
 void Sweep::find_states(bool all) {
   std::set<std::size_t> baselines;
   for (const Combination& one : combinations_) {
@@ -191,9 +204,7 @@ void Sweep::find_states(bool all) {
       CombinationState state;
       state.id =
           content_name(label_text(one.labels) + "\n" + scene + "\n" + sha256 + "\n" + one.peer.value_or(""));
-      state.of = metrics;
-      if (const auto reference = reference_of(study_, one))
-        state.of += scene_text_of(*reference) + visitor_.sha256(*reference);
+      state.of = metrics + reference_identity(one);
       state.of = content_name(state.of);
       states_[one.index] = state;
     });
