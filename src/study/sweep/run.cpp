@@ -4,6 +4,7 @@
 #include "core/files.h"
 #include "image/image_io.h"
 #include "image/pictures.h"
+#include "study/sweep/report.h"
 #include "study/sweep/visits.h"
 
 #include <algorithm>
@@ -416,6 +417,7 @@ void write_results(const StudyResults& results, const fs::path& folder) {
   write_text_atomically(folder / "study.json", results.study.json + "\n");
   write_text_atomically(folder / "results.csv", results_csv(results));
   write_text_atomically(folder / "results.json", results_json(results));
+  write_text_atomically(folder / "report.html", report_html(results, folder));
 }
 
 void copy_pictures(const fs::path& from, const fs::path& to) {

@@ -76,6 +76,9 @@ TEST_CASE("a study measures every combination and writes its table and pictures"
           Approx(*number_in(results, results.rows[1], "samples")).epsilon(0.02));
   REQUIRE(read_text(folder / "out" / "results.csv") == results_csv(results));
   REQUIRE(read_text(folder / "out" / "results.json").find("\"GL_RENDERER\"") == std::string::npos);
+  const std::string report = read_text(folder / "out" / "report.html");
+  for (const Row& row : results.rows)
+    REQUIRE(report.find("\"" + row.texts.at("picture") + "\"") != std::string::npos);
 }
 
 TEST_CASE("an interrupted study goes on, shards join, and both give the table of an uninterrupted one",
