@@ -173,6 +173,9 @@ std::string timing_text(const StudyResults& results) {
   if (timing.most_rounds < fewest || (timing.precision <= 0 && timing.rounds < fewest))
     html += " An interval of the median at " + percent(timing.confidence) + " would take " +
             std::to_string(fewest) + " rounds; with these there is none.";
+  else
+    html += " The rounds are enough for an interval of the median at " + percent(timing.confidence) +
+            " confidence.";
   html += baseline_html(timing);
   if (!timing.skip.empty())
     html += " Some combinations are not timed (the study's <code>skip</code>).";
