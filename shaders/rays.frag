@@ -19,6 +19,7 @@
 #include "gpu/light.glsl"
 #endif
 #include "gpu/focus_effects.glsl"
+#include "gpu/objects.glsl"
 #ifdef CUT_PLANES
 #include "gpu/plane.glsl"
 uniform CutPlane planes[CUT_PLANES];
@@ -86,10 +87,7 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #endif
 }
 #elif defined(LOCAL_MODES)
-// Labels, some of which a run of samples becomes more than the samples one by one.
-#include "lib/two_level.glsl"
-uniform float xray_scale;
-
+// Labels, some of whose runs become more than their samples.
 TwoLevel gather_objects(TwoLevel state, vec3 p, vec3 to_eye) {
 #ifdef WARPED
   vec3 t = texture_from_object(p);
@@ -97,24 +95,12 @@ TwoLevel gather_objects(TwoLevel state, vec3 p, vec3 to_eye) {
 #else
   vec3 t = p;
 #endif
-  int row = label_row(t);
-  int mode = label_mode(row);
-  float value = displayed_value(t);
-  vec4 color = classify_row(row, value);
-#ifdef MODULATED
-  if (mode != 1) color.a *= opacity_factor(t, p);
-#endif
-#ifdef SHADED
-  if (mode == 0) color.rgb = shade(color.rgb, t, p, to_eye);
-#endif
 #ifdef FOCUS_EFFECTS
-  color = with_effects(color, effects_at(p));
+  vec2 focus = effects_at(p);
+#else
+  vec2 focus = vec2(1.0, 0.0);
 #endif
-  float alpha = color.a;
-#ifdef CORRECT_CONSTANT
-  alpha = corrected_opacity(color.a, distance_ratio);
-#endif
-  return with_sample(state, row, mode, value, color, alpha, distance_ratio, xray_scale);
+  return with_object(state, t, p, to_eye, focus, distance_ratio);
 }
 #else
 vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {

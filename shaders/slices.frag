@@ -9,7 +9,8 @@
 // coordinate where the sample is shown; under MIP the winner of the depth test keeps its own. VOLUMES: there are several
 // (gpu/one_volume.glsl); under MIP each has its own channel. SHELLS: polygons only cover what a shell about the eye can
 // colour, and each fragment takes the sample that rays.frag would take there. PREINTEGRATED: it stands for the segment of
-// its ray around it (gpu/segments.glsl).
+// its ray around it (gpu/segments.glsl). LOCAL_MODES: it carries its ray's run through an object to the next slice
+// (gpu/carried_run.glsl) and blends nothing.
 
 #include "lib/opacity.glsl"
 #include "lib/composite.glsl"
@@ -29,6 +30,8 @@
 #include "gpu/light.glsl"
 #endif
 #include "gpu/focus_effects.glsl"
+#include "gpu/objects.glsl"
+#include "gpu/carried_run.glsl"
 
 uniform float distance_ratio;     // Δ/Δ₀ on the view axis
 uniform vec4 slope_from_pixel;    // perspective: tangents of the ray's angles = xy · gl_FragCoord + zw
@@ -63,7 +66,14 @@ in vec3 object_coordinate;
 #ifdef WARP_TESSELLATED
 in vec4 homogeneous_coordinate;
 #endif
+#ifdef LOCAL_MODES
+uniform float slice_number;  // from 0, nearest first
+layout(location = 0) out vec4 result;
+layout(location = 1) out vec4 next_shown;
+layout(location = 2) out vec4 next_run;
+#else
 out vec4 result;
+#endif
 
 #if defined(CORRECT_FRAGMENT)
 float stretch() {
@@ -120,15 +130,20 @@ void shift_sample() {}
 #endif
 
 #if defined(MODE_ISO)
-// The surface between this slice and the one before it.
+// The surface between this slice and the one before it. The way looked along reaches beyond that one by what coordinates are
+// rounded by: its fragment has this point by other arithmetic, and a surface between the two would be found by neither. What
+// both find is the same point. A longer reach would also find thin parts that lie between two samples of the ray.
+const float reach = 1e-6;  // texture coordinates: some steps of a float below 1
 void main() {
   shift_sample();
-  vec3 before = object_coordinate + step_to_eye(object_coordinate);
+  vec3 step_back = step_to_eye(object_coordinate);
+  vec3 before = object_coordinate + step_back;
   vec3 here_point = shown_point(object_coordinate);
   vec3 before_point = shown_point(before);
   if (!in_region(before) || !shows_data(here_point) || !shows_data(before_point)) discard;
   float here_value = displayed_value(here_point);
-  float before_value = displayed_value(before_point);
+  before += reach * normalize(step_back);
+  float before_value = iso_value(before);
   if ((here_value < isovalue) == (before_value < isovalue)) discard;
   vec3 p = refined_crossing(before, object_coordinate, before_value, here_value, isovalue);
   result = vec4(surface_color(p, direction_to_eye(p)), 1.0);
@@ -180,10 +195,20 @@ void main() {
 #elif defined(FOCUS_EFFECTS)
   vec2 focus = effects_at(object_coordinate);
 #endif
-#if defined(PREINTEGRATED)
-#ifndef FOCUS_EFFECTS
+#if (defined(PREINTEGRATED) || defined(LOCAL_MODES)) && !defined(FOCUS_EFFECTS)
   vec2 focus = vec2(1.0, 0.0);
 #endif
+#if defined(LOCAL_MODES)
+  vec4 run = carried_run_here();
+  TwoLevel state = carried_state(run);
+  // The slice before has no sample on this ray: that place ended the run.
+  if (run.w < slice_number - 1.5) state = ended_run(state, xray_scale);
+  state = with_object(state, texture_coordinate, object_coordinate, direction_to_eye(object_coordinate), focus,
+                      sample_ratio());
+  result = state.gathered;
+  next_shown = state.shown;
+  next_run = vec4(float(state.row), float(state.mode), state.largest, slice_number);
+#elif defined(PREINTEGRATED)
   vec3 p = object_coordinate;
   vec3 ahead = half_step();
   result = segment_color(vec2(end_texel(p - ahead), end_texel(p + ahead)), texture_coordinate, p, direction_to_eye(p),

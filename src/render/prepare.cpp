@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "render/bricks.h"
 #include "scene/camera.h"
+#include "scene/names.h"
 #include "volume/missing.h"
 #include "volume/pyramid.h"
 #include "warp/object_bounds.h"
@@ -303,6 +304,10 @@ void draw_own_colors(PreparedScene& prepared) {
         "overlay.legend shows a transfer function, and the volume has colours of its own; set it "
         "to false" +
         instead);
+  if (prepared.scene.render.shading != Shading::none)
+    throw UsageError(
+        "render.shading '" + word(prepared.scene.render.shading) +
+        "' needs a gradient, which the volume's own colours have not; set render.shading to none" + instead);
   prepared.scene.render.classification = Classification::pre;
   try {
     validate(prepared.scene);

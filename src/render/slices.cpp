@@ -128,6 +128,31 @@ void SliceRenderer::draw_stack(const GpuScene& scene, const Progress& progress) 
   }
 }
 
+void SliceRenderer::draw_runs(const PreparedScene& prepared, const gl::Target& target,
+                              const Progress& progress) {
+  const gl::Functions& gl = *gl_;
+  if (!runs_ || runs_->width() != target.width || runs_->height() != target.height)
+    runs_.emplace(gl, target.width, target.height);
+  set_uniform(gl, program_, "xray_scale", static_cast<float>(prepared.xray_scale));
+  runs_->begin(program_);
+  const std::size_t count = index_ends_.size();
+  const std::size_t step = std::max<std::size_t>(1, count / 50);
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t i = prepared.scene.render.order == Order::back_to_front ? count - 1 - n : n;
+    const std::size_t begin = i == 0 ? 0 : index_ends_[i - 1];
+    runs_->before_slice(program_, n);
+    gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(index_ends_[i] - begin), GL_UNSIGNED_INT,
+                    reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
+    if (progress.advance && (n + 1) % step == 0) {
+      gl::finish(gl);
+      report_progress(progress, "draw", static_cast<double>(n + 1) / static_cast<double>(count));
+    }
+  }
+  gl::bind_target(gl, target);
+  gl.BindVertexArray(no_vertices_.name());
+  runs_->end(prepared.xray_scale);
+}
+
 void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target,
                          const Progress& progress) {
   const gl::Functions& gl = *gl_;
@@ -165,11 +190,16 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
     set_ray_uniforms(gl, program_, prepared);
     set_uniform(gl, program_, "place_from_pixel", 2.0F / glm::vec2(view.width, view.height));
   }
+  gl.BindVertexArray(vertex_array_.name());
+  if (has_local_modes(prepared.labels)) {
+    draw_runs(prepared, target, progress);
+    gl::check_errors(gl, "drawing the runs of labels");
+    return;
+  }
   if (picks_winner(prepared))
     set_depth_test(gl, render);
   else
     set_blending(gl, render);
-  gl.BindVertexArray(vertex_array_.name());
   draw_stack(scene, progress);
   if (planes_)
     draw_planes_last(prepared, scene);

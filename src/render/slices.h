@@ -4,6 +4,7 @@
 #pragma once
 
 #include "gl/target.h"
+#include "render/carried_runs.h"
 #include "render/cut_planes.h"
 #include "render/gpu_scene.h"
 #include "render/stack_geometry.h"
@@ -36,6 +37,8 @@ public:
 
 private:
   void draw_stack(const GpuScene& scene, const Progress& progress);
+  /// Local modes: slice by slice from the eye, whatever render.order is, then the colours into `target`.
+  void draw_runs(const PreparedScene& prepared, const gl::Target& target, const Progress& progress);
   /// Opaque polygons stop what lies behind them by depth. Back to front they are what slices blend over;
   /// front to back they come last, under the slices.
   void draw_planes_first(const PreparedScene& prepared, const GpuScene& scene) const;
@@ -46,6 +49,7 @@ private:
   gl::Program program_;
   gl::Program classify_program_;     ///< MIP only
   std::optional<gl::Target> maxima_; ///< MIP only
+  std::optional<CarriedRuns> runs_;  ///< local modes of labels only
   gl::VertexArray vertex_array_;
   gl::VertexArray no_vertices_;
   gl::Buffer corners_;

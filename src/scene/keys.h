@@ -64,8 +64,7 @@ void label_keys(Visitor& visit, Settings& s) {
   visit.key("label", s.label, "its number in volume.labels");
   visit.key("name", s.name, "for people");
   visit.key("mode", s.mode,
-            "what a ray's run through it becomes: dvr, mip (its largest value) or xray (its line integral); "
-            "mip and xray: rays and reference");
+            "what a ray's run through it becomes: dvr, mip (its largest value) or xray (its line integral)");
   visit.option("transfer", s.transfer, "its own (none: the scene's)",
                [](auto& v, auto& x) { transfer_keys(v, x); });
   visit.key("visible", s.visible, "false: it is left out");

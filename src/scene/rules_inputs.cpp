@@ -120,13 +120,6 @@ void validate_labels(const Scene& scene) {
            "render.footprint to point");
   if (scene.overlay.legend)
     refuse("has a transfer function for each label, and overlay.legend shows one", "overlay.legend to false");
-  for (const LabelSettings& label : scene.labels) {
-    if (label.visible && label.mode != LabelMode::dvr && draws_slices(render.pipeline)) {
-      refuse("shows label " + std::to_string(label.label) + " by '" + word(label.mode) +
-                 "', which needs a ray's whole run through it: slices are blended one by one",
-             "render.pipeline to rays or reference, or its mode to dvr");
-    }
-  }
 }
 
 /// A transfer function of value and gradient.

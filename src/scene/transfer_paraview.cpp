@@ -216,7 +216,8 @@ std::string paraview_json_text(const TransferToWrite& what) {
   }
   map["Points"] = std::move(opacities);
   map["RGBPoints"] = std::move(colors);
-  return Json::array({std::move(map)}).dump(1, '\t') + "\n";
+  // A name out of an XML file, or a file's own, need not be UTF-8.
+  return Json::array({std::move(map)}).dump(1, '\t', false, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace slicelens::transfer_formats

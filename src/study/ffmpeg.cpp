@@ -29,7 +29,7 @@ std::string sequence_word(const fs::path& folder) {
   return word + "/frame_%05d.png";
 }
 
-void run_ffmpeg(const Words& arguments, const TemporaryFolder& folder, const VideoFrames& frames) {
+void run_ffmpeg(const Words& arguments, const ScratchFolder& folder, const VideoFrames& frames) {
   Words words = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const auto status = run_program(words, folder / "out", folder / "err");
@@ -66,7 +66,7 @@ Words operator+(Words a, const Words& b) {
 }
 
 /// Without the colour tags players guess by the size of the picture.
-void write_mp4(const fs::path& path, const TemporaryFolder& folder, const VideoFrames& frames) {
+void write_mp4(const fs::path& path, const ScratchFolder& folder, const VideoFrames& frames) {
   run_ffmpeg(input_words(frames) + Words{"-frames:v", std::to_string(frames.count), "-vf",
                                          "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-c:v",
                                          "libx264", "-crf", "18", "-colorspace", "bt709", "-color_primaries",
@@ -76,7 +76,7 @@ void write_mp4(const fs::path& path, const TemporaryFolder& folder, const VideoF
 }
 
 /// In two passes, since one would hold all frames in memory until the colours are chosen.
-void write_gif(const fs::path& path, const TemporaryFolder& folder, const VideoFrames& frames) {
+void write_gif(const fs::path& path, const ScratchFolder& folder, const VideoFrames& frames) {
   const std::string count = std::to_string(frames.count);
   const std::string palette = file_word(folder / "palette.png");
   const std::string chosen = "trim=end_frame=" + count;
@@ -121,7 +121,7 @@ void check_video(const fs::path& path, const std::array<std::size_t, 2>& size, d
 }
 
 void write_video(const fs::path& path, const VideoFrames& frames) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_atomically(path, [&](const fs::path& temporary) {
     if (lower(path.extension().string()) == ".gif")
       write_gif(temporary, folder, frames);

@@ -32,7 +32,7 @@ std::string first_error(const std::string& errors, const std::string& script) {
 } // namespace
 
 std::string run_gnuplot(const std::string& script) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const fs::path file = folder / "plot.gp";
   write_text_atomically(file, script);
   const auto ended = run_program({"gnuplot", "-d", file.string()}, folder / "out", folder / "err");

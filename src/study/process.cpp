@@ -16,7 +16,7 @@ namespace slicelens {
 
 namespace fs = std::filesystem;
 
-TemporaryFolder::TemporaryFolder() {
+ScratchFolder::ScratchFolder() {
   std::error_code error;
   const fs::path base = fs::temp_directory_path(error);
   if (error)
@@ -28,7 +28,7 @@ TemporaryFolder::TemporaryFolder() {
   path_ = name;
 }
 
-TemporaryFolder::~TemporaryFolder() {
+ScratchFolder::~ScratchFolder() {
   std::error_code error;
   fs::remove_all(path_, error);
 }

@@ -9,13 +9,13 @@
 namespace slicelens {
 
 /// A private folder under the system's one for temporary files (TMPDIR), removed at the end.
-class TemporaryFolder {
+class ScratchFolder {
 public:
   /// Throws FileError when it cannot be made.
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
 
   std::filesystem::path operator/(const char* name) const { return path_ / name; }
 

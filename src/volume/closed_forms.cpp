@@ -117,6 +117,14 @@ double box_chord(const Box& box, const Ray& ray) {
   return line ? line->highest - line->lowest : 0;
 }
 
+std::optional<double> sphere_hit(const glm::dvec3& center, double radius, const Ray& ray) {
+  const double half = sphere_chord(center, radius, ray) / 2;
+  const glm::dvec3 unit = glm::normalize(ray.direction);
+  if (!(half > 0))
+    return std::nullopt;
+  return (glm::dot(center - ray.origin, unit) - half) / glm::length(ray.direction);
+}
+
 double impact_distance(const glm::dvec3& point, const Ray& ray) {
   const double s = nearest_parameter(point, ray);
   return glm::length(ray.origin + s * glm::normalize(ray.direction) - point);
@@ -146,6 +154,11 @@ double blob_xray_clipped(const Box& box, const Ray& ray, double unit_distance) {
   const double inside =
       (std::erf((line->highest - middle) / scale) - std::erf((line->lowest - middle) / scale)) / 2;
   return blob_xray(box, ray, unit_distance) * inside;
+}
+
+double blob_average(const Box& box, const Ray& ray) {
+  const double chord = box_chord(box, ray);
+  return chord > 0 ? blob_xray_clipped(box, ray, 1) / chord : 0;
 }
 
 double blob_mip(const Box& box, const Ray& ray) {
@@ -193,21 +206,96 @@ glm::dvec4 ramp_dvr(const Box& box, const Ray& ray, std::size_t nx, const glm::d
   return sum;
 }
 
-glm::dvec4 slabs_dvr(const Box& box, const Ray& ray, const glm::dvec4& front, const glm::dvec4& back,
-                     double unit_distance) {
+std::optional<RampRange> ramp_range(const Box& box, const Ray& ray, std::size_t nx) {
   const auto line = line_in_box(box, ray);
   if (!line)
-    return glm::dvec4(0);
+    return std::nullopt;
+  const double enter = line->ray.origin.x + line->lowest * line->ray.direction.x;
+  const double leave = line->ray.origin.x + line->highest * line->ray.direction.x;
+  const double first = std::min(enter, leave);
+  const double last = std::max(enter, leave);
+  const double half = 0.5 / static_cast<double>(nx);
+  // ∫ from 0 to x of the value, which is linear between the outer voxel centres.
+  const auto integral = [half](double x) {
+    const double middle = std::clamp(x, half, 1 - half);
+    return half * std::min(x, half) + (middle * middle - half * half) / 2 +
+           (1 - half) * std::max(x - (1 - half), 0.0);
+  };
+  RampRange range{ramp_value(first, nx), ramp_value(last, nx), ramp_value((first + last) / 2, nx)};
+  if (last - first > 1e-9) // else the quotient is rounding, and the middle is the mean
+    range.average = (integral(last) - integral(first)) / (last - first);
+  return range;
+}
+
+namespace {
+
+/// The line's two parts on the sides of t_y = ½.
+struct SlabLengths {
+  double first = 0; ///< of the slab that the ray meets first
+  double second = 0;
+  bool front_first = true;
+};
+
+std::optional<SlabLengths> slab_lengths(const Box& box, const Ray& ray) {
+  const auto line = line_in_box(box, ray);
+  if (!line)
+    return std::nullopt;
   const double speed = line->ray.direction.y;
   const double enter = line->ray.origin.y + line->lowest * speed;
   double cut = line->highest; // the whole chord in the slab where the line enters
   if (speed != 0)
     cut = std::clamp((0.5 - line->ray.origin.y) / speed, line->lowest, line->highest);
-  const bool front_first = speed != 0 ? speed > 0 : enter < 0.5;
-  const glm::dvec4& first = front_first ? front : back;
-  const glm::dvec4& second = front_first ? back : front;
-  return over(constant_segment(first, cut - line->lowest, unit_distance),
-              constant_segment(second, line->highest - cut, unit_distance));
+  return SlabLengths{cut - line->lowest, line->highest - cut, speed != 0 ? speed > 0 : enter < 0.5};
+}
+
+} // namespace
+
+glm::dvec4 slabs_dvr(const Box& box, const Ray& ray, const glm::dvec4& front, const glm::dvec4& back,
+                     double unit_distance) {
+  const auto lengths = slab_lengths(box, ray);
+  if (!lengths)
+    return glm::dvec4(0);
+  const glm::dvec4& first = lengths->front_first ? front : back;
+  const glm::dvec4& second = lengths->front_first ? back : front;
+  return over(constant_segment(first, lengths->first, unit_distance),
+              constant_segment(second, lengths->second, unit_distance));
+}
+
+glm::dvec4 slabs_xray_front(const Box& box, const Ray& ray, const glm::dvec4& front, const glm::dvec4& back,
+                            double unit_distance, double scale) {
+  const auto lengths = slab_lengths(box, ray);
+  if (!lengths)
+    return glm::dvec4(0);
+  const double in_front = lengths->front_first ? lengths->first : lengths->second;
+  const double behind = lengths->front_first ? lengths->second : lengths->first;
+  const double alpha = std::min(scale * front.a * in_front / unit_distance, 1.0);
+  const glm::dvec4 integral(glm::dvec3(front) * alpha, alpha);
+  const glm::dvec4 composited = constant_segment(back, behind, unit_distance);
+  return lengths->front_first ? over(integral, composited) : over(composited, integral);
+}
+
+namespace {
+constexpr double kPeaks = 6;         // f_M
+constexpr double kModulation = 0.25; // α
+} // namespace
+
+double marschner_lobb(const glm::dvec3& t) {
+  constexpr double pi = std::numbers::pi;
+  const glm::dvec3 p = 2.0 * t - 1.0;
+  const double r = std::sqrt(p.x * p.x + p.y * p.y);
+  const double rho_r = std::cos(2 * pi * kPeaks * std::cos(pi * r / 2));
+  return (1 - std::sin(pi * p.z / 2) + kModulation * (1 + rho_r)) / (2 * (1 + kModulation));
+}
+
+glm::dvec3 marschner_lobb_gradient(const glm::dvec3& t) {
+  constexpr double pi = std::numbers::pi;
+  const glm::dvec3 p = 2.0 * t - 1.0;
+  const double r = std::sqrt(p.x * p.x + p.y * p.y);
+  const double by_r = kModulation * std::sin(2 * pi * kPeaks * std::cos(pi * r / 2)) * pi * pi * kPeaks *
+                      std::sin(pi * r / 2);
+  const glm::dvec2 outward = r > 0 ? glm::dvec2(p) / r : glm::dvec2(0);
+  // The factor 2 of p = 2t − 1 cancels that of the denominator.
+  return glm::dvec3(by_r * outward, -pi / 2 * std::cos(pi * p.z / 2)) / (1 + kModulation);
 }
 
 } // namespace slicelens

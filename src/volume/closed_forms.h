@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <optional>
 
 namespace slicelens {
 
@@ -29,6 +30,10 @@ double sphere_chord(const glm::dvec3& center, double radius, const Ray& ray);
 /// is where the phantom's value is > 0.
 double ball_chord(const Box& box, const Ray& ray);
 
+/// Distance from the ray's origin, in units of its direction, at which its line first meets a sphere (the
+/// smaller of the two, which may be negative); nothing where it misses.
+std::optional<double> sphere_hit(const glm::dvec3& center, double radius, const Ray& ray);
+
 /// Distance of the line from a point.
 double impact_distance(const glm::dvec3& point, const Ray& ray);
 
@@ -45,10 +50,22 @@ double blob_xray_clipped(const Box& box, const Ray& ray, double unit_distance);
 /// the centre is inside); 0 where the line misses the box.
 double blob_mip(const Box& box, const Ray& ray);
 
+/// Mean of `blob` along the line inside the box: its X-ray over the chord. 0 where the line misses the box.
+double blob_average(const Box& box, const Ray& ray);
+
 /// What trilinear sampling, clamped to the edge, of the voxels of phantom `ramp` with `nx` voxels along x
 /// gives at texture coordinate t_x: linear between the outer voxel centres and constant in the outer half
 /// voxels, clamp(t_x, ½/nx, 1 − ½/nx).
 double ramp_value(double t_x, std::size_t nx);
+
+/// Smallest, largest and mean value of `ramp` so sampled, along the line inside the box.
+struct RampRange {
+  double least = 0;
+  double most = 0;
+  double average = 0;
+};
+std::optional<RampRange> ramp_range(const Box& box, const Ray& ray,
+                                    std::size_t nx); ///< nothing where it misses
 
 /// DVR of phantom `ramp` with `nx` voxels along x, trilinearly sampled (see ramp_value), under the transfer
 /// function that goes linearly from `low` at value 0 to `high` at value 1 (straight r, g, b, opacity per
@@ -66,5 +83,18 @@ glm::dvec4 ramp_dvr(const Box& box, const Ray& ray, std::size_t nx, const glm::d
 /// ½.
 glm::dvec4 slabs_dvr(const Box& box, const Ray& ray, const glm::dvec4& front, const glm::dvec4& back,
                      double unit_distance);
+
+/// The same slabs as two objects of a two-level picture: the half t_y < ½ shows its line integral,
+/// min(scale·S, 1) with S = α·length/Δ₀, in `front`'s colour; the other half is composited as above.
+glm::dvec4 slabs_xray_front(const Box& box, const Ray& ray, const glm::dvec4& front, const glm::dvec4& back,
+                            double unit_distance, double scale);
+
+/// Phantom `marschner-lobb` between its voxels: ρ at texture coordinates t (Marschner and Lobb, An Evaluation
+/// of Reconstruction Filters for Volume Rendering, IEEE Visualization 1994, §5, with the paper's f_M = 6 and
+/// α = 0.25 on [−1,1]³), in [0, 1].
+double marschner_lobb(const glm::dvec3& t);
+
+/// Its derivatives by t.
+glm::dvec3 marschner_lobb_gradient(const glm::dvec3& t);
 
 } // namespace slicelens

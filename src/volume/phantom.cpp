@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "core/text.h"
+#include "volume/closed_forms.h"
 #include "volume/phantom_rows.h"
 
 #include <tbb/blocked_range.h>
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <numbers>
 
 namespace slicelens {
 
@@ -56,20 +56,8 @@ PhantomRows slab_rows() {
   });
 }
 
-/// Marschner and Lobb, An Evaluation of Reconstruction Filters for Volume Rendering, IEEE Visualization 1994,
-/// §5, with the paper's f_M = 6 and α = 0.25 on [−1,1]³. Its own sampling is 40³, close to the signal's
-/// Nyquist rate.
-PhantomRows marschner_lobb_rows() {
-  return rows_of([](const glm::dvec3& t) {
-    constexpr double pi = std::numbers::pi;
-    constexpr double f_m = 6;
-    constexpr double alpha = 0.25;
-    const glm::dvec3 p = 2.0 * t - 1.0;
-    const double r = std::sqrt(p.x * p.x + p.y * p.y);
-    const double rho_r = std::cos(2 * pi * f_m * std::cos(pi * r / 2));
-    return (1 - std::sin(pi * p.z / 2) + alpha * (1 + rho_r)) / (2 * (1 + alpha));
-  });
-}
+/// The paper's own sampling is 40³, close to the signal's Nyquist rate.
+PhantomRows marschner_lobb_rows() { return rows_of(marschner_lobb); }
 
 PhantomRows ct_head_rows() { return head_rows(false); }
 PhantomRows mr_head_rows() { return head_rows(true); }

@@ -253,6 +253,54 @@ void texts() {
   seed("raw_name", "underscore", "head-4_4_2-ushort");
 }
 
+/// A volume property of 3D Slicer as .vp.json with this component.
+std::string slicer_property(const std::string& component) {
+  return "{\"@schema\":\"x\",\"volumeProperties\":[{\"interpolationType\":\"linear\",\"components\":[{" +
+         component + "}]}]}";
+}
+
+std::string camera_property(const std::string& name, const std::vector<std::string>& values) {
+  std::string text = "<Property name=\"" + name + "\">";
+  for (std::size_t i = 0; i < values.size(); ++i)
+    text += "<Element index=\"" + std::to_string(i) + "\" value=\"" + values[i] + "\"/>";
+  return text + "</Property>";
+}
+
+/// The first byte is the format's number in transfer_and_camera.cpp.
+void transfers() {
+  const auto add = [](char format, const std::string& name, const std::string& text) {
+    seed("transfer", name, std::string(1, format) + text);
+  };
+  add(0, "json",
+      R"([{"ColorSpace":"RGB","Name":"two","Points":[0,0.25,0.5,0,5,0,0.2,1,10,0.75,0.5,0.5],)"
+      R"("RGBPoints":[0,0,0,0,5,1,0,0,5,0,1,0,10,1,0.5,0.25],"NanColor":[1,1,0]}])");
+  add(0, "json_diverging",
+      R"({"ColorSpace":"Diverging","RGBPoints":[1,0.2,0.3,0.75,10,0.7,0,0.15],"UseLogScale":1})");
+  add(0, "json_hsv", R"({"ColorSpace":"HSV","HSVWrap":true,"RGBPoints":[-1,0,0,1,1e3,1,0,0]})");
+  add(1, "xml",
+      R"(<ColorMaps><ColorMap name="a" space="Lab"><Point x="0" o="0.5" r="0" g="0" b="1"/>)"
+      R"(<Point x="9" o="1" r="1" g="0.5" b="0"/><NaN r="1" g="1" b="0"/></ColorMap></ColorMaps>)");
+  add(1, "xml_one",
+      R"(<ColorMap space="Wrapped" indexedLookup="false"><Point x="-1" r="1" g="0" b="0"/></ColorMap>)");
+  add(2, "vp",
+      "1\n1\n0.9\n0.1\n0.2\n10\n6 -100 0 20 0.25 300 1\n4 0 1 255 0.5\n8 -100 0 0 0 300 1 0.5 0.25\n");
+  add(3, "vp_json",
+      slicer_property(
+          R"("shade":true,"lighting":{"ambient":0.1,"diffuse":0.9,"specular":0.2,"specularPower":10},)"
+          R"("scalarOpacityUnitDistance":0.75,"scalarOpacity":{"points":[{"x":0,"y":0,"midpoint":0.3,)"
+          R"("sharpness":0.5},{"x":4,"y":1}]},"gradientOpacity":{"points":[{"x":0,"y":1}]},)"
+          R"("rgbTransferFunction":{"points":[{"x":0,"color":[1,0.5,0]},{"x":4,"color":[0,0,1]}]})"));
+  add(4, "1dt", "3\n0 0 0 0\n1 0.5 0 0.25\n1 1 1 1\n");
+  add(5, "pvcc",
+      "<?xml version=\"1.0\"?><PVCameraConfiguration><Proxy>" +
+          camera_property("CameraPosition", {"0", "-300", "5"}) +
+          camera_property("CameraFocalPoint", {"0", "0", "0"}) +
+          camera_property("CameraViewUp", {"0", "0", "1"}) + camera_property("CameraViewAngle", {"30"}) +
+          camera_property("CameraParallelScale", {"80.5"}) +
+          camera_property("CameraParallelProjection", {"0"}) + camera_property("EyeAngle", {"2"}) +
+          "</Proxy></PVCameraConfiguration>");
+}
+
 } // namespace
 
 int main(int count, char** words) {
@@ -266,5 +314,6 @@ int main(int count, char** words) {
   images();
   dicom();
   texts();
+  transfers();
   return 0;
 }

@@ -147,7 +147,8 @@ TEST_CASE("what a volume of colours cannot be is refused by name") {
     return "";
   };
   CHECK_THAT(refusal(R"(,"mode":"mip")"), Contains("volume of colours") && Contains("'mip'"));
-  CHECK_THAT(refusal(R"(,"shading":"diffuse")"), Contains("render.shading") && Contains("volume.component"));
+  CHECK_THAT(refusal(R"(,"shading":"diffuse")"),
+             Contains("render.shading 'diffuse' needs a gradient") && Contains("volume.component"));
   CHECK_THAT(refusal(R"(,"footprint":"mip")"), Contains("volume of colours") && Contains("render.footprint"));
   CHECK_THAT(refusal("", R"(,"overlay":{"legend":true})"), Contains("overlay.legend"));
   CHECK_THAT(refusal("", R"(,"planes":[{"normal":[0,1,0]}])"), Contains("planes"));

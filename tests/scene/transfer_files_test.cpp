@@ -459,3 +459,16 @@ TEST_CASE("damaged cameras get one line") {
       folder.put("y.pvcc", replaced(camera_example, "\"RotationFactor\" id", "\"EyeAngle\" id")));
   CHECK(other.ignored == "EyeAngle");
 }
+
+TEST_CASE("a map's name that is no UTF-8 is written with replacement characters") {
+  // Found by the fuzzer: the JSON library threw an exception of its own.
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "a.xml")
+      << "<ColorMap name=\"a\xed\"><Point x=\"0\" r=\"1\" g=\"0\" b=\"0\"/>"
+         "<Point x=\"1\" r=\"0\" g=\"0\" b=\"1\"/></ColorMap>";
+  const ReadTransfer map = read(folder.path() / "a.xml");
+  CHECK(map.transfer.name == "a\xed");
+  CHECK(write_transfer_file(folder.path() / "a.json", {map.transfer}).empty());
+  check_same(read(folder.path() / "a.json").transfer, map.transfer);
+  CHECK(read_transfer_file(folder.path() / "a.json").name == "a\xef\xbf\xbd"); // U+FFFD
+}

@@ -50,6 +50,7 @@ TEST_CASE("help of the program and of each command mentions every option") {
       {"list", {"contexts", "figures", "keys", "phantoms", "pipelines", "presets", "warps"}},
       {"gallery", {"inputs", "--output", "--set"}},
       {"animate", {"input", "--output", "--vary", "--frames", "--loop", "--fps", "--set", "ffmpeg"}},
+      {"export", {"input", "--output", "--set", "render_with_vtk"}},
       {"plot", {"SCENE", "--output", "--set", "--size", "gnuplot-nox"}}};
   for (const auto& [command, words] : options) {
     const std::string text = done(place, {command, "--help"}).out;

@@ -33,6 +33,27 @@ expect 1 'demo: nowhere.nrrd: no such file or folder' "$checkout/tools/demo" now
 expect 1 'demo: no_\*.png: no file matches' "$checkout/tools/demo" 'no_*.png'
 expect 2 "test: there is no preset 'debug'" "$checkout/tools/test" --preset debug
 expect 2 'test: --preset needs a name' "$checkout/tools/test" --preset
+if command -v python3 >/dev/null; then
+  vtk="$checkout/tools/render_with_vtk"
+  expect 0 '--warm-up' "$vtk" --help
+  expect 2 'render_with_vtk: unrecognized arguments: --frob' "$vtk" --frob
+  expect 2 'render_with_vtk: a SCENE is missing' "$vtk"
+  expect 2 "render_with_vtk: argument --mapper: invalid choice: 'best'" "$vtk" a.json --mapper best
+  expect 2 'render_with_vtk: x.jpg: give a name that ends in .png' "$vtk" a.json -o x.jpg
+  expect 2 'render_with_vtk: --serve takes its scenes from stdin' "$vtk" a.json --serve
+  # Without the folders of installed modules there is no VTK.
+  expect 1 "render_with_vtk: Python's module vtk is missing; apt-get install python3-vtk9 xvfb" \
+    env SLICELENS_VTK_SYSTEM_PYTHON=1 PYTHONPATH= python3 -I -S "$vtk" a.json
+  if /usr/bin/python3 -c 'import vtk' 2>/dev/null; then
+    mkdir "$work/folder"
+    echo '{}' >"$work/folder/scene.json"
+    expect 1 'folder/scene.json: was not written by slicelens export' "$vtk" folder
+    expect 2 "render_with_vtk: --set changes a scene" "$vtk" folder --set render.spacing=2
+    expect 1 'and Xvfb, which makes one, is not installed; apt-get install xvfb' \
+      env -u DISPLAY PATH=/nowhere /usr/bin/python3 "$vtk" --serve
+    expect 1 'the display :98765 cannot be opened; unset DISPLAY' env DISPLAY=:98765 "$vtk" --serve
+  fi
+fi
 expect 2 "setup-debian: unknown option 'x'" "$checkout/tools/setup-debian" x
 
 # Not root and no sudo: one line that names what to run. dpkg-query is a stand-in that knows of no package.
@@ -44,9 +65,10 @@ printf '#!/bin/sh\necho 1000\n' >"$work/bin/id"
 chmod +x "$work/bin/dpkg-query" "$work/bin/apt-get" "$work/bin/id"
 expect 1 'as root run: apt-get install g++ cmake' env PATH="$work/bin" "$checkout/tools/setup-debian"
 expect 0 'missing packages.*catch2' env PATH="$work/bin" "$checkout/tools/setup-debian" --tests --no-install
+expect 0 'missing packages.*python3-vtk9' env PATH="$work/bin" "$checkout/tools/setup-debian" --vtk --no-install
 
 # Every package that is installed is explained, and every one that is explained is installed.
-listed=$(tr '\n' ' ' <"$checkout/tools/setup-debian" | grep -oE '(build|test)_packages=\([^)"]*\)' |
+listed=$(tr '\n' ' ' <"$checkout/tools/setup-debian" | grep -oE '(build|test|vtk)_packages=\([^)"]*\)' |
   sed 's/^[a-z_]*=(//; s/)$//' | tr -s ' ' '\n' | grep . | sort)
 explained=$(grep -E '^\| `' "$checkout/docs/dependencies.md" | cut -d'|' -f2 | grep -o '`[^`]*`' | tr -d '`' | sort)
 if [ "$listed" != "$explained" ]; then

@@ -42,6 +42,25 @@ TEST_CASE("scenes with files render as those with the same points and angles, an
   }
 }
 
+TEST_CASE("of a scene of several volumes, --volume says whose transfer function is written") {
+  const Workplace place;
+  put(place / "two.json",
+      R"({"volumes": [{"phantom": "ball", "size": [8, 8, 8], "transfer": {"points": [[1, 1, 0, 0, 0.25]]}},
+      {"phantom": "box", "size": [4, 4, 4], "transfer": {"points": [[2, 0, 1, 0, 0.5]], "unit_distance": 3}}]})");
+  const std::string first = "{\"transfer\":{\"points\":[[1.0,1.0,0.0,0.0,0.25]]}}\n";
+  CHECK(place.run({"transfer", "two.json"}).out == first);
+  CHECK(place.run({"transfer", "two.json", "--volume", "0"}).out == first);
+  CHECK(place.run({"transfer", "two.json", "--volume", "1"}).out ==
+        "{\"transfer\":{\"points\":[[2.0,0.0,1.0,0.0,0.5]],\"unit_distance\":3.0}}\n");
+  const Outcome third = place.run({"transfer", "two.json", "--volume", "2"});
+  CHECK(third.status == 2);
+  CHECK(third.err.find("--volume 2: the scene has 2 volume(s), counted from 0") != std::string::npos);
+  const Outcome preset = place.run({"transfer", "CT-Bone", "--volume", "1"});
+  CHECK(preset.status == 2);
+  CHECK(preset.err.find("--volume chooses among a scene's volumes, and CT-Bone is none") !=
+        std::string::npos);
+}
+
 TEST_CASE("what cannot be converted is refused in one line") {
   const Workplace place;
   const auto refused = [&](const std::vector<std::string>& arguments, int status, const std::string& text) {

@@ -172,3 +172,80 @@ TEST_CASE("two slabs composite in the order the ray meets them") {
     check_near(slabs_dvr(cube(), ray, front, back, 1), sum, 1e-4); // three edges of half a step · 0.1
   }
 }
+
+TEST_CASE("least, largest and mean values along a line agree with brute force") {
+  std::mt19937 random(4);
+  for (int round = 0; round < 20; ++round) {
+    const Ray ray = random_ray(random);
+    double least = 2;
+    double most = -1;
+    double ramp_sum = 0;
+    double blob_sum = 0;
+    double count = 0;
+    for (int i = 0; i < 400000; ++i) {
+      const glm::dvec3 t = (ray.origin + i * 5e-4 * ray.direction) / kEdge + 0.5;
+      if (t.x < 0 || t.y < 0 || t.z < 0 || t.x > 1 || t.y > 1 || t.z > 1)
+        continue;
+      const double v = std::clamp(t.x, 0.5 / 16, 1 - 0.5 / 16);
+      least = std::min(least, v);
+      most = std::max(most, v);
+      ramp_sum += v;
+      blob_sum += std::exp(-glm::dot(t - 0.5, t - 0.5) * 32); // σ = 1/8
+      count += 1;
+    }
+    const auto range = ramp_range(cube(), ray, 16);
+    REQUIRE(range.has_value() == (count > 0));
+    if (count < 1000) // the march's own ends would be a thousandth
+      continue;
+    // A step of 5e-4 is 1.6e-5 of the edge; means are off by a step of a chord of 0.5 at least.
+    CHECK(range->least == Approx(least).margin(2e-5));
+    CHECK(range->most == Approx(most).margin(2e-5));
+    CHECK(range->average == Approx(ramp_sum / count).margin(1e-3));
+    CHECK(blob_average(cube(), ray) == Approx(blob_sum / count).margin(1e-3));
+  }
+  // By hand: across y the value is one; along x, of two voxels, from 1/4 (half of the line) over the middle
+  // to 3/4.
+  const auto across = ramp_range(cube(), {{8, -99, 0}, {0, 1, 0}}, 16);
+  CHECK(across->least == Approx(0.75));
+  CHECK(across->average == Approx(0.75));
+  const auto along = ramp_range(cube(), {{99, 0, 0}, {-1, 0, 0}}, 2);
+  CHECK(along->least == 0.25);
+  CHECK(along->most == 0.75);
+  CHECK(along->average == Approx(0.5));
+  CHECK_FALSE(ramp_range(cube(), {{99, 99, 0}, {0, 0, 1}}, 2));
+}
+
+TEST_CASE("a line meets a sphere where Pythagoras says") {
+  const auto hit = sphere_hit({1, 2, 3}, 5, {{4, -98, 3}, {0, 2, 0}}); // 3 off the centre: 4 before it
+  REQUIRE(hit);
+  CHECK(*hit == Approx((100 - 4) / 2.0));
+  CHECK_FALSE(sphere_hit({1, 2, 3}, 5, {{7, -98, 3}, {0, 2, 0}}));
+}
+
+TEST_CASE("a line integral in front of fog, and behind it") {
+  const glm::dvec4 front(1, 0, 0, .05);
+  const glm::dvec4 back(0, 0, 1, .1);
+  // 16 voxels each, Δ₀ = 2: S = .05·16/2 = .4, of which half is shown; fog of 1 − .9⁸.
+  const double fog = 1 - std::pow(.9, 8);
+  check_near(slabs_xray_front(cube(), {{1, -99, 2}, {0, 1, 0}}, front, back, 2, 0.5),
+             {.2, 0, .8 * fog, .2 + .8 * fog}, 1e-12);
+  check_near(slabs_xray_front(cube(), {{1, 99, 2}, {0, -1, 0}}, front, back, 2, 0.5),
+             {(1 - fog) * .2, 0, fog, fog + (1 - fog) * .2}, 1e-12);
+  check_near(slabs_xray_front(cube(), {{1, -99, 2}, {0, 1, 0}}, front, back, 2, 9), {1, 0, 0, 1}, 1e-12);
+}
+
+TEST_CASE("the gradient of Marschner and Lobb's signal is that of differences") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int round = 0; round < 50; ++round) {
+    const glm::dvec3 t(uniform(random), uniform(random), uniform(random));
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::dvec3 h(0);
+      h[axis] = 1e-6;
+      // The third derivative is at most (2·2π·6·π/2)³/10 = 1.7e5: 1e-12/6 of it, and rounding of 1e-16/1e-6.
+      CHECK(marschner_lobb_gradient(t)[axis] ==
+            Approx((marschner_lobb(t + h) - marschner_lobb(t - h)) / 2e-6).margin(1e-6));
+    }
+  }
+  CHECK(marschner_lobb_gradient(glm::dvec3(0.5)).x == 0); // the axis r = 0
+}

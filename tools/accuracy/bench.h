@@ -90,5 +90,7 @@ void gradient_section(const Bench& bench);
 void footprint_section(const Bench& bench);
 void grid_section(const Bench& bench);
 void preintegrated_section(const Bench& bench);
+void mode_section(const Bench& bench);
+void filter_section(const Bench& bench);
 
 } // namespace slicelens::accuracy

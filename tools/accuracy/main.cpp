@@ -21,10 +21,12 @@ struct Section {
 
 const std::vector<Section>& sections() {
   static const std::vector<Section> list = {{"closed-forms", closed_form_section},
+                                            {"modes", mode_section},
                                             {"parity", parity_section},
                                             {"perspective", perspective_section},
                                             {"precision", precision_section},
                                             {"opacity", opacity_section},
+                                            {"filters", filter_section},
                                             {"axis", axis_section},
                                             {"gradients", gradient_section},
                                             {"footprint", footprint_section},
@@ -32,6 +34,13 @@ const std::vector<Section>& sections() {
                                             {"preintegrated", preintegrated_section},
                                             {"vessels", vessel_section}};
   return list;
+}
+
+std::vector<std::string> section_names() {
+  std::vector<std::string> names;
+  for (const Section& section : sections())
+    names.emplace_back(section.name);
+  return names;
 }
 
 std::string today() {
@@ -76,8 +85,7 @@ int main(int argc, char** argv) {
                  "engine/engine.vti, bonsai/bonsai.nii.gz, aneurism/aneurism.vti); those present are used")
       ->type_name("DIR");
   app.add_option("sections", wanted, "which; all by default")
-      ->check(CLI::IsMember({"closed-forms", "parity", "perspective", "precision", "opacity", "axis",
-                             "gradients", "footprint", "grids", "preintegrated", "vessels"}));
+      ->check(CLI::IsMember(slicelens::accuracy::section_names()));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

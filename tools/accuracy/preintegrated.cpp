@@ -116,12 +116,13 @@ void ramp_table(const Bench& bench) {
 }
 
 void head_table(const Bench& bench) {
-  std::cout << "### A head\n\n"
-               "`head` 96³, "
-            << kPixels
-            << "² pixels, a peak of opacity 0.9 within ±`half` of the range about the border of the skin "
-               "(0.3) or of "
-               "bone (0.6). PSNR in dB against the reference by points at spacing 1/32.\n\n";
+  std::cout
+      << "### A head\n\n"
+         "`head` 96³, "
+      << kPixels
+      << "² pixels, values from −1000 to 2300 HU, a peak of opacity 0.9 within ±`half` of that range about "
+         "0.3 of it (−10 HU: in the border of skin and air) or 0.6 (980 HU: in that of teeth and of the "
+         "densest bone). PSNR in dB against the reference by points at spacing 1/32.\n\n";
   Subject subject = phantom_subject("head", 96, constant_transfer({1, 1, 1, 1}), kPixels);
   const Way reference = {"", ProjectionName::orthographic, Pipeline::reference, Proxy::planes};
   Table table({"about", "half", "classification", "2", "1", "0.5", "0.25"});

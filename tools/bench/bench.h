@@ -66,5 +66,6 @@ void run_axis(gl::Context& context, const BenchOptions& options);
 void run_deform(gl::Context& context, const BenchOptions& options);
 void run_grids(gl::Context& context, const BenchOptions& options);
 void run_drag(gl::Context& context, const BenchOptions& options);
+void run_vtk(gl::Context& context, const BenchOptions& options); ///< needs what docs/vtk.md lists
 
 } // namespace slicelens::bench

@@ -54,6 +54,8 @@ void run(const BenchOptions& options) {
       run_grids(context, options);
     if (wanted("drag"))
       run_drag(context, options);
+    if (!options.sections.empty() && wanted("vtk")) // needs more than this program
+      run_vtk(context, options);
   }
   if (wanted("phases"))
     run_phases(options);
@@ -71,9 +73,10 @@ int main(int argc, char** argv) {
                "a picture. Prints Markdown.",
                "slicelens_bench");
   app.add_option("sections", options.sections,
-                 "fill, options, lens2d, lens3d, axis, deform, grids, drag, phases; none: all")
+                 "fill, options, lens2d, lens3d, axis, deform, grids, drag, phases; none: all of these; "
+                 "vtk: against VTK, where that is installed")
       ->check(CLI::IsMember(
-          {"fill", "options", "lens2d", "lens3d", "axis", "deform", "grids", "drag", "phases"}));
+          {"fill", "options", "lens2d", "lens3d", "axis", "deform", "grids", "drag", "phases", "vtk"}));
   app.add_option("--volume", options.volumes, "volume files or folders for `phases`")->type_name("PATH");
   app.add_option("--edge", options.edge, "voxels on an edge of the phantom")->check(CLI::Range(8, 1024));
   app.add_option("--picture", options.picture, "pixels on an edge of the picture")

@@ -357,6 +357,10 @@ void add_transfer(CLI::App& app, TransferOptions& options, std::function<void()>
   command.add_option("--map", options.map, "name of the colour map in a ParaView file that holds several")
       ->type_name("NAME");
   command
+      .add_option("--volume", options.volume, "of several volumes of a scene, whose function it is, from 0")
+      ->check(CLI::Range(0, 3))
+      ->type_name("I");
+  command
       .add_option("--range", options.range,
                   "data values of the first and the last point of a file, relative preset or written table")
       ->delimiter(',')
@@ -380,6 +384,22 @@ void add_camera(CLI::App& app, CameraOptions& options, std::function<void()>& ru
   command.add_option("-o,--output", options.output, "file to write, .pvcc")->type_name("FILE");
   add_set(command, options.set);
   command.callback([&options, &run] { run = [&options] { run_camera(options); }; });
+}
+
+void add_export(CLI::App& app, ExportOptions& options, std::function<void()>& run) {
+  CLI::App& command =
+      *app.add_subcommand("export", "write a scene for other renderers: numbers and raw voxels");
+  command.footer(
+      "Writes DIR/scene.json with everything worked out (transfer function, camera, sample distance in "
+      "world units, light)\nand DIR/volume.raw. tools/render_with_vtk draws such folders with VTK. "
+      "Refused are warps, several volumes,\nlabels, clipping, effects and overlays.\n\n"
+      "  slicelens export head.json -o head/ --set render.spacing=0.5");
+  command.add_option("input", options.input, "SCENE, VOLUME or IMAGE")->required()->type_name("");
+  command.add_option("-o,--output", options.folder, "folder to write to; made where there is none")
+      ->required()
+      ->type_name("DIR");
+  add_set(command, options.set);
+  command.callback([&options, &run] { run = [&options] { run_export(options); }; });
 }
 
 void add_study(CLI::App& app, StudyOptions& options, std::function<void()>& run) {
@@ -494,6 +514,7 @@ int run_program(int argc, char** argv) {
   SliceOptions slice;
   TransferOptions transfer;
   CameraOptions camera;
+  ExportOptions exporting;
   StudyOptions study;
   TablesOptions tables;
   add_render(app, render, run);
@@ -510,6 +531,7 @@ int run_program(int argc, char** argv) {
   add_slice(app, slice, run);
   add_transfer(app, transfer, run);
   add_camera(app, camera, run);
+  add_export(app, exporting, run);
   add_study(app, study, run);
   add_tables(app, tables, run);
   try {

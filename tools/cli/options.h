@@ -116,6 +116,7 @@ struct TransferOptions {
   std::string input;  ///< preset, file of another program, scene, volume or picture
   std::string output; ///< .json, .vp, .vp.json or .1dt; empty: the section of a scene on stdout
   std::string map;    ///< of a file that holds several
+  int volume = 0;     ///< of a scene's several, whose function it is
   std::vector<double> range;
   std::size_t rows = 256; ///< of .1dt
   std::vector<std::string> set;
@@ -124,6 +125,12 @@ struct TransferOptions {
 struct CameraOptions {
   std::string input;
   std::string output; ///< .pvcc; empty: the section of a scene on stdout
+  std::vector<std::string> set;
+};
+
+struct ExportOptions {
+  std::string input;
+  std::string folder;
   std::vector<std::string> set;
 };
 
@@ -159,6 +166,7 @@ void run_pick(const PickOptions& options);
 void run_slice(const SliceOptions& options);
 void run_transfer(const TransferOptions& options);
 void run_camera(const CameraOptions& options);
+void run_export(const ExportOptions& options);
 void run_study_command(const StudyOptions& options);
 void run_tables(const TablesOptions& options);
 

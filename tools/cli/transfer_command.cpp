@@ -82,10 +82,10 @@ Source from_preset(const TransferOptions& options, const std::optional<ValueRang
 
 Source from_scene(const TransferOptions& options, const Progress& progress) {
   const SceneInput input = scene_input(options.input, options.set);
-  const Volume volume = load_volume(input.scene.volume, input.folders, progress);
-  Scene scene = input.scene;
-  load_transfer_file(scene.transfer, volume, input.folders, progress);
-  Source source{{transfer_of(scene, volume), slicer_display(scene)}};
+  const std::size_t index = checked_volume(input.scene, options.volume);
+  const LoadedVolume loaded = load_volume_of(input.scene, index, input.folders, progress);
+  const Volume& volume = loaded.volume;
+  Source source{{loaded.transfer, slicer_display(input.scene)}};
   const glm::dvec3& spacing = volume.spacing;
   if (transfer_format_of(options.output) == TransferFormat::slicer_json &&
       !source.what.transfer.unit_distance)
@@ -130,11 +130,14 @@ void run_transfer(const TransferOptions& options) {
   const bool file = is_transfer_file(options.input);
   if (!file && !options.map.empty())
     throw UsageError("--map names a colour map of a ParaView file, and " + options.input + " is none");
-  if (!options.set.empty() && (file || is_preset(options.input)))
+  const bool scene = !file && !is_preset(options.input);
+  if (!options.set.empty() && !scene)
     throw UsageError("--set changes a scene, and " + options.input + " is none");
-  Source source = file                       ? from_file(options, range, progress)
-                  : is_preset(options.input) ? from_preset(options, range, progress)
-                                             : from_scene(options, progress);
+  if (options.volume != 0 && !scene)
+    throw UsageError("--volume chooses among a scene's volumes, and " + options.input + " is none");
+  Source source = file    ? from_file(options, range, progress)
+                  : scene ? from_scene(options, progress)
+                          : from_preset(options, range, progress);
   end_progress();
   if (options.output.empty()) {
     std::printf("%s\n", scene_section(source.what.transfer).c_str());

@@ -44,6 +44,8 @@ std::vector<std::pair<std::string, Spread>> spreads(const Rounds& rounds) {
   std::map<std::string, std::vector<double>> values;
   for (const auto& [round, visit] : rounds) {
     for (const auto& [phase, seconds] : visit->seconds) {
+      if (phase.rfind("baseline_", 0) == 0)
+        continue;
       if (values[phase].empty())
         order.push_back(phase);
       values[phase].push_back(seconds);
@@ -59,11 +61,11 @@ std::vector<std::pair<std::string, Spread>> spreads(const Rounds& rounds) {
 std::optional<Spread> rates(const Rounds& own, const Rounds& baseline, const std::string& phase) {
   std::vector<double> values;
   for (const auto& [round, visit] : own) {
-    const auto other = baseline.find(round);
-    if (other == baseline.end())
-      continue;
     const auto mine = phase_of(*visit, phase);
-    const auto theirs = phase_of(*other->second, phase);
+    auto theirs = phase_of(*visit, "baseline_" + phase); // timed just before it
+    const auto other = baseline.find(round);
+    if (!theirs && other != baseline.end())
+      theirs = phase_of(*other->second, phase);
     if (mine && theirs && *mine > 0)
       values.push_back(*theirs / *mine);
   }

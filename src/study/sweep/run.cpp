@@ -290,8 +290,19 @@ std::vector<std::size_t> Sweep::visited() const {
 void Sweep::visit(Journal& journal, std::size_t index, std::size_t round) {
   const Combination& one = combinations_[index];
   TimedVisit entry{states_[index]->id, choice_.shard, round, {}};
-  errors_[index] = failure_of(
-      [&] { entry.seconds = visitor_.time(input_of(study_, one), one.peer, study_.timing, progress_); });
+  errors_[index] = failure_of([&] {
+    const auto baseline = study_.timing.beside ? baseline_of(study_, combinations_, one) : std::nullopt;
+    if (baseline && *baseline != index && states_[*baseline]) {
+      const Combination& other = combinations_[*baseline];
+      for (const auto& [phase, seconds] :
+           visitor_.time(input_of(study_, other), other.peer, study_.timing, progress_)) {
+        if (phase == "draw" || phase == "draw_processor")
+          entry.seconds.emplace_back("baseline_" + phase, seconds);
+      }
+    }
+    const Seconds own = visitor_.time(input_of(study_, one), one.peer, study_.timing, progress_);
+    entry.seconds.insert(entry.seconds.begin(), own.begin(), own.end());
+  });
   if (errors_[index].empty())
     journal.add(entry);
 }

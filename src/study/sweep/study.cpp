@@ -162,6 +162,11 @@ void read_timing(Object& parent, Study& study) {
       timing.baseline.emplace_back(column, labels.front());
     }
   }
+  std::string pairs = "round";
+  object.text("pairs", pairs);
+  if (pairs != "round" && pairs != "visit")
+    throw UsageError(object.path("pairs") + ": \"" + pairs + "\" is not valid; give round or visit");
+  timing.beside = pairs == "visit";
   timing.skip = conditions_of(object, "skip", study);
   object.finish();
 }

@@ -59,6 +59,7 @@ struct TimingProtocol {
   double precision = 0; ///< rounds go on until half the interval is at most this part of the median; 0: off
   std::uint64_t seed = 2006;   ///< of the orders
   std::vector<Label> baseline; ///< what the baseline of a combination has in place of its own; empty: none
+  bool beside = false;         ///< the baseline is timed at every visit, just before; else once a round
   std::vector<Condition> skip; ///< combinations that are not timed
   bool limits = true;          ///< measure the machine's fill rates in every round
 };

@@ -3,9 +3,13 @@
 #include "core/errors.h"
 #include "gl/state.h"
 #include "gl/timer.h"
+#include "image/image_io.h"
 #include "render/lens_renderer.h"
 #include "render/render_session.h"
 #include "scene/load.h"
+#include "study/export.h"
+#include "study/peer.h"
+#include "study/process.h"
 #include "study/statistics.h"
 #include "study/sweep/fill_limits.h"
 #include "study/sweep/machine.h"
@@ -126,9 +130,23 @@ FrameTimes time_picture(const PreparedPicture& prepared, gl::Context* context,
 
 } // namespace
 
+/// A running peer with the scene that it holds.
+struct HeldPeer {
+  ScratchFolder folder;
+  Peer peer{find_peer()};
+  std::string scene;
+  PeerDriver driver;
+};
+
 struct Visitor::State {
   SceneStore store{kept_volumes};
   OpenContext context;
+  std::map<std::string, HeldPeer> peers; ///< by mapper
+
+  HeldPeer& peer_with(const SceneInput& input, const std::string& mapper, const Progress& progress);
+  DrawnPicture draw_by_peer(const SceneInput& input, const std::string& mapper, const Progress& progress);
+  Seconds time_peer(const SceneInput& input, const std::string& mapper, const TimingProtocol& protocol,
+                    const Progress& progress);
 
   DrawnPicture draw_volume(const SceneInput& input, const Progress& progress);
   DrawnPicture draw_picture(const PictureInput& input);
@@ -164,6 +182,45 @@ DrawnPicture Visitor::State::draw_volume(const SceneInput& input, const Progress
   return drawn;
 }
 
+/// The peer after it has taken the scene, which it does only where it holds another one.
+HeldPeer& Visitor::State::peer_with(const SceneInput& input, const std::string& mapper,
+                                    const Progress& progress) {
+  HeldPeer& held = peers[mapper];
+  const std::string scene = scene_to_json(input.scene, -1) + store.sha256(input);
+  if (held.scene == scene)
+    return held;
+  held.scene.clear();
+  write_export(store.get(input, progress), held.folder / "scene");
+  try {
+    held.driver = held.peer.load(held.folder / "scene", mapper);
+  } catch (const FileError&) {
+    peers.erase(mapper); // it may be gone; the next scene gets a new one
+    throw;
+  }
+  held.scene = scene;
+  return held;
+}
+
+DrawnPicture Visitor::State::draw_by_peer(const SceneInput& input, const std::string& mapper,
+                                          const Progress& progress) {
+  HeldPeer& held = peer_with(input, mapper, progress);
+  (void)held.peer.draw();
+  held.peer.write(held.folder / "picture.png");
+  DrawnPicture drawn;
+  drawn.image = read_image(held.folder / "picture.png");
+  drawn.texts = {
+      {"renderer", "VTK " + held.driver.program + ", " + mapper + " mapper; " + held.driver.renderer},
+      {"gl_version", held.driver.version}};
+  return drawn;
+}
+
+Seconds Visitor::State::time_peer(const SceneInput& input, const std::string& mapper,
+                                  const TimingProtocol& protocol, const Progress& progress) {
+  HeldPeer& held = peer_with(input, mapper, progress);
+  (void)held.peer.draw(protocol.warm_up);
+  return {{"draw", median(held.peer.draw(protocol.frames))}};
+}
+
 /// Null for the reference.
 gl::Context* Visitor::State::context_for(const ImageScene& scene) {
   if (scene.render.pipeline == LensPipeline::reference)
@@ -174,6 +231,12 @@ gl::Context* Visitor::State::context_for(const ImageScene& scene) {
     wanted.render.pipeline = Pipeline::fixed_function; // which needs a compatibility context
   open_context(context, wanted);
   return &*context.context;
+}
+
+void require_volume(const StudyInput& input, const std::optional<std::string>& peer) {
+  if (peer && std::holds_alternative<PictureInput>(input))
+    throw UsageError("render.pipeline vtk-" + *peer +
+                     " draws volumes; a 2D lens is drawn by our own pipelines");
 }
 
 PreparedPicture prepared_picture(const PictureInput& input) {
@@ -210,8 +273,9 @@ const PreparedScene* Visitor::prepared(const StudyInput& input, const Progress& 
 
 DrawnPicture Visitor::draw(const StudyInput& input, const std::optional<std::string>& peer,
                            const Progress& progress) {
+  require_volume(input, peer);
   if (peer)
-    throw UsageError("pipeline vtk-" + *peer + " is not there yet");
+    return state_->draw_by_peer(std::get<SceneInput>(input), *peer, progress);
   if (const auto* picture = std::get_if<PictureInput>(&input))
     return state_->draw_picture(*picture);
   return state_->draw_volume(std::get<SceneInput>(input), progress);
@@ -219,8 +283,9 @@ DrawnPicture Visitor::draw(const StudyInput& input, const std::optional<std::str
 
 Seconds Visitor::time(const StudyInput& input, const std::optional<std::string>& peer,
                       const TimingProtocol& protocol, const Progress& progress) {
+  require_volume(input, peer);
   if (peer)
-    throw UsageError("pipeline vtk-" + *peer + " is not there yet");
+    return state_->time_peer(std::get<SceneInput>(input), *peer, protocol, progress);
   if (const auto* picture = std::get_if<PictureInput>(&input))
     return medians({},
                    time_picture(prepared_picture(*picture), state_->context_for(picture->scene), protocol));

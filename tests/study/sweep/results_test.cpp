@@ -72,6 +72,15 @@ TEST_CASE("times are medians and quartiles of the rounds, rates go pair by pair"
   REQUIRE_FALSE(number_in(results, slices, "a paper").has_value());
 }
 
+TEST_CASE("a baseline that was timed beside a visit counts before that of the round") {
+  JournalContents journal = measured();
+  journal.visits[3].seconds.emplace_back("baseline_draw", 6.0); // rays, round 2, 4 seconds
+  const StudyResults results = collected(journal);
+  REQUIRE(results.rows[1].rate->values == std::vector<double>{2, 0.5, 1.5});
+  for (const auto& [phase, spread] : results.rows[1].seconds)
+    REQUIRE(phase.rfind("baseline", 0) != 0);
+}
+
 TEST_CASE("visits of another shard are no baseline") {
   JournalContents journal = measured();
   for (TimedVisit& one : journal.visits) {
