@@ -13,6 +13,9 @@ std::optional<double> deform_seconds(gl::Context& context, const PreparedScene& 
     return std::nullopt;
   const gl::Functions& gl = context.functions();
   PreparedScene copy = prepared;
+  copy.held.clear(); // splines and fields are solved anew, as after a change
+  for (PreparedScene& other : copy.others)
+    other.held.clear();
   gl::finish(gl);
   const auto start = std::chrono::steady_clock::now();
   prepare_again(copy);
