@@ -60,7 +60,7 @@ void run_case(gl::Context& context, const BenchOptions& options, const Case& tes
   const gl::Functions& gl = context.functions();
   const Scene scene = scene_from_json(scene_to_json(base), "bench", test.changes);
   const PreparedScene prepared = prepare(scene, volume, transfer_of(scene, volume));
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_export(prepared, folder / "scene");
   Peer peers[] = {Peer(find_peer()), Peer(find_peer())};
   peers[0].load(folder / "scene", "gpu");

@@ -75,7 +75,15 @@ TEST_CASE("a study measures every combination and writes its table and pictures"
   REQUIRE(*number_in(results, results.rows[0], "fragments") ==
           Approx(*number_in(results, results.rows[1], "samples")).epsilon(0.02));
   REQUIRE(read_text(folder / "out" / "results.csv") == results_csv(results));
-  REQUIRE(read_text(folder / "out" / "results.json").find("\"GL_RENDERER\"") == std::string::npos);
+  const std::string json = read_text(folder / "out" / "results.json");
+  for (const char* key :
+       {"\"GL_RENDERER\"", "\"GL_VERSION\"", "\"commit\"", "\"processor\"", "\"study\"", "\"scene\""}) {
+    INFO(key);
+    REQUIRE(json.find(key) != std::string::npos);
+  }
+  const std::string report = read_text(folder / "out" / "report.html");
+  for (const Row& row : results.rows)
+    REQUIRE(report.find("\"" + row.texts.at("picture") + "\"") != std::string::npos);
 }
 
 TEST_CASE("an interrupted study goes on, shards join, and both give the table of an uninterrupted one",
