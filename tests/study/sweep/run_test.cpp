@@ -195,3 +195,17 @@ TEST_CASE("2D lenses are compared and timed as volumes are", "[one-driver]") {
   REQUIRE(*number_in(results, results.rows[0], "psnr") > 80);
   REQUIRE(results.rows[1].rate->values.size() == 2);
 }
+
+TEST_CASE("a warp's own phase is timed where there is a warp", "[one-driver]") {
+  const TemporaryFolder folder;
+  const Study small = study(R"({"scene": {"volume": {"phantom": "ball", "size": [8, 8, 8]},
+      "render": {"pipeline": "fragment", "size": [8, 8]}},
+    "vary": [{"name": "warp", "cases": {"none": {}, "landmarks": {"warp": {"kind": "landmarks", "space": "texture", "method": "bspline",
+      "pairs": [[[0.3, 0.3, 0.3], [0.35, 0.3, 0.3]], [[0.7, 0.7, 0.6], [0.7, 0.65, 0.6]]]}}}}],
+    "timing": {"rounds": 1, "limits": false}})");
+  const StudyResults results = run_study(small, folder / "out", {}, {});
+  REQUIRE(all_done(results));
+  REQUIRE_FALSE(number_in(results, results.rows[0], "deform_s").has_value());
+  REQUIRE(*number_in(results, results.rows[1], "deform_s") > 0);
+  REQUIRE(*number_in(results, results.rows[1], "changed_rate") < 1);
+}
