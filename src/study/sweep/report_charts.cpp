@@ -216,6 +216,18 @@ void add_front_chart(const StudyResults& results, std::vector<ReportChart>& char
   charts.push_back(std::move(chart));
 }
 
+/// Along a varied column everything else that varies makes lines and panels. What was measured, such as
+/// fragments, has no values to hold the rest at: all points of a line are one line.
+Names columns_beside(const StudyResults& results, const Rows& rows, const StudyChart& wanted) {
+  for (const SweepAxis& axis : results.study.axes) {
+    for (const Label& label : axis.values.front().labels) {
+      if (label.first == wanted.x)
+        return other_columns(results, rows, wanted.x);
+    }
+  }
+  return wanted.by;
+}
+
 void add_study_charts(const StudyResults& results, std::vector<ReportChart>& charts) {
   for (const StudyChart& wanted : results.study.charts) {
     const Quantity x = column_quantity(results, wanted.x);
@@ -234,7 +246,7 @@ void add_study_charts(const StudyResults& results, std::vector<ReportChart>& cha
     chart.log_x = wanted.logarithmic && can_be_logarithmic(rows, x);
     chart.log_y = wanted.logarithmic && can_be_logarithmic(rows, y);
     chart.fitted = "exponent";
-    fill_panels(chart, split_of(rows, other_columns(results, rows, wanted.x), wanted.by), x, y);
+    fill_panels(chart, split_of(rows, columns_beside(results, rows, wanted), wanted.by), x, y);
     charts.push_back(std::move(chart));
   }
 }

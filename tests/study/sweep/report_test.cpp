@@ -236,6 +236,22 @@ TEST_CASE("the error's fitted order is that of the data") {
   CHECK_FALSE(has(html, "xmlns"));
 }
 
+TEST_CASE("a chart against what was measured has one panel, whatever varied") {
+  StudyResults results = results_of(R"({"vary": [{"render.spacing": [4, 2, 1, 0.5]},
+    {"name": "what", "cases": {"plain": {}, "noisy": {"render.jitter": 1}}}],
+    "charts": [{"title": "Cost", "x": "slices", "y": "draw_s", "by": ["what"], "log": true}]})");
+  for (Row& row : results.rows)
+    row.values = {{"slices", 100 / *number_in(results, row, "render.spacing")}};
+  const auto charts = charts_of(results);
+  const ReportChart& chart = chart_named(charts, "Cost");
+  REQUIRE(chart.panels.size() == 1);
+  REQUIRE(chart.panels[0].series.size() == 2);
+  for (const report::ChartSeries& series : chart.panels[0].series) {
+    REQUIRE(series.points.size() == 4);
+    CHECK(series.fit->exponent == Approx(1).epsilon(1e-12)); // times and slices both go with 1/h
+  }
+}
+
 TEST_CASE("an error of psnr is the root of the mean square that it stands for") {
   StudyResults results = results_of(R"({"vary": {"render.spacing": [2, 1]}, "metrics": ["psnr"],
     "reference": {"set": {"render.pipeline": "reference"}}})");
