@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 #include "slicing/polygon.h"
 #include "tess/lens_mesh.h"
+#include "volume/cell_ranges.h"
 #include "volume/transfer.h"
 #include "volume/volume.h"
 #include "warp/axis_tables.h"
@@ -59,6 +60,7 @@ struct PreparedScene {
   SampleSteps steps;           ///< from sample to sample, for render.footprint
   std::size_t levels = 1;      ///< of the pyramid: render.levels, or what render.footprint needs of them
   std::vector<Volume> pyramid; ///< levels 1, 2 … (volume/pyramid.h)
+  std::optional<CellRanges> cells; ///< where render.skip needs them
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};
