@@ -184,7 +184,7 @@ void upload_all(const gl::Functions& gl, const PreparedScene& prepared, GLenum f
 /// What rays pass over. Slices know it before they are drawn (render/pass_tiles.h).
 void upload_occupancy(const gl::Functions& gl, const PreparedScene& prepared, GpuScene& scene) {
   const RenderSettings& render = prepared.scene.render;
-  if (render.skip == Skip::none || render.pipeline != Pipeline::rays)
+  if (!prepared.skipping.empty || render.pipeline != Pipeline::rays)
     return;
   Occupancy occupancy = occupancy_of(prepared);
   for (std::uint8_t& cell : occupancy.shows)

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "gl/check.h"
+#include "render/occupancy.h"
 #include "render/shaders.h"
 
 namespace slicelens {

@@ -7,10 +7,6 @@
 
 namespace slicelens {
 
-/// The opacity behind which nothing is drawn. What could come through is at most 1/512 of a colour, half of
-/// what an 8-bit picture can show, so colours up to 2 (light may add to them) stay within 1/255.
-inline constexpr double opaque_enough = 1 - 1.0 / 512;
-
 /// Slices between two markings, at least.
 inline constexpr std::size_t slices_per_mark = 16;
 

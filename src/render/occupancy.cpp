@@ -86,6 +86,40 @@ Occupancy occupancy_of(const PreparedScene& prepared) {
   return result;
 }
 
+namespace {
+
+/// Slices whose samples, all as opaque as the transfer function gets, leave 1 − opaque_enough of the light.
+double opaque_after(const PreparedScene& prepared) {
+  double most = 0;
+  if (prepared.scene.transfer.shapes.empty()) {
+    const TransferTable table = drawn_table(prepared);
+    for (std::size_t i = 3; i < table.rgba.size(); i += 4)
+      most = std::max(most, static_cast<double>(table.rgba[i]));
+  } else {
+    most = 1;
+  }
+  // An 8-bit table rounds, and rays towards the picture's corners are the longest.
+  most = std::min(1.0, most + 1.0 / 255);
+  const View& view = prepared.view;
+  const double ratio = correction_of(prepared) == Correction::none ? 1 : axis_distance_ratio(prepared);
+  const double longest =
+      view.projection == Projection::perspective ? std::hypot(1.0, half_width(view), view.half_height) : 1;
+  const double extinction = -std::log1p(-most) * ratio * longest;
+  return -std::log(1 - opaque_enough) / extinction;
+}
+
+} // namespace
+
+Skipping skipping_of(const PreparedScene& prepared) {
+  const Occupancy occupancy = occupancy_of(prepared);
+  Skipping skipping;
+  skipping.empty =
+      static_cast<double>(occupancy.count) <= too_many_occupied * static_cast<double>(occupancy.shows.size());
+  if (prepared.scene.render.skip == Skip::empty_and_hidden)
+    skipping.opaque_after = opaque_after(prepared);
+  return skipping;
+}
+
 CellBox cell_box(const PreparedScene& prepared, std::size_t index) {
   const auto& size = prepared.cells->size;
   const auto& dims = prepared.volume.dims;

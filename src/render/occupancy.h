@@ -24,6 +24,16 @@ struct Occupancy {
 /// wrong. Needs prepared.cells.
 Occupancy occupancy_of(const PreparedScene& prepared);
 
+/// Share of occupied cells from which on looking at cells costs more than it saves (docs/skipping.md).
+inline constexpr double too_many_occupied = 0.7;
+
+/// The opacity behind which nothing is drawn. What could come through is at most 1/512 of a colour, half of
+/// what an 8-bit picture can show, so colours up to 2 (light may add to them) stay within 1/255.
+inline constexpr double opaque_enough = 1 - 1.0 / 512;
+
+/// Needs prepared.cells and everything but the view's own geometry.
+Skipping skipping_of(const PreparedScene& prepared);
+
 /// The texture coordinates of cell `index`: its lowest corner and its highest, at most 1.
 struct CellBox {
   glm::dvec3 low{0};

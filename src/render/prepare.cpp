@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "render/bricks.h"
+#include "render/occupancy.h"
 #include "scene/camera.h"
 #include "scene/names.h"
 #include "volume/missing.h"
@@ -177,11 +178,13 @@ void prepare_pyramid(PreparedScene& prepared) {
 /// What render.skip tells empty cells by. It depends on the data and the filter's reach, so it stays.
 void prepare_cells(PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
+  prepared.skipping = {};
   if (render.skip == Skip::none)
     return;
   const std::size_t reach = render.filter == Filter::cubic ? 2 : 1;
   if (!prepared.cells || prepared.cells->reach != reach)
     prepared.cells = cell_ranges(prepared.volume, reach);
+  prepared.skipping = skipping_of(prepared);
 }
 
 /// Puts the volume where its placement says. `middle`: of the first volume, which `align` may ask for.

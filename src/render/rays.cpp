@@ -4,7 +4,7 @@
 #include "gl/state.h"
 #include "gl/timer.h"
 #include "render/cut_planes.h"
-#include "render/hidden_marks.h"
+#include "render/occupancy.h"
 #include "render/ray_frame.h"
 #include "render/ray_uniforms.h"
 #include "render/several_volumes.h"
@@ -33,7 +33,7 @@ RayRenderer::RayRenderer(const gl::Functions& gl, const PreparedScene& prepared)
   std::vector<std::string> macros = common_macros(prepared);
   if (ray_end_opacity(prepared) < 1)
     macros.emplace_back("EARLY_TERMINATION");
-  if (prepared.scene.render.skip != Skip::none)
+  if (prepared.skipping.empty)
     macros.emplace_back("OCCUPANCY");
   if (!prepared.scene.planes.empty())
     macros.push_back("CUT_PLANES " + std::to_string(prepared.scene.planes.size()));

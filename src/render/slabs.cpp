@@ -1,6 +1,6 @@
 #include "render/slabs.h"
 
-#include "render/hidden_marks.h"
+#include "render/occupancy.h"
 #include "render/pass_tiles.h"
 #include "render/ray_uniforms.h"
 #include "slicing/slice_stack.h"
@@ -142,7 +142,13 @@ void append_tiles(StackGeometry& geometry, const View& view, const PassTiles& ti
 
 bool draws_slabs(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
-  return draws_slices(render.pipeline) && (render.planes_per_pass > 1 || render.skip != Skip::none);
+  return draws_slices(render.pipeline) &&
+         (render.planes_per_pass > 1 || prepared.skipping.empty || marks_hidden(prepared));
+}
+
+bool marks_hidden(const PreparedScene& prepared) {
+  const glm::dvec3 size = (prepared.object_high - prepared.object_low) * extent(prepared.box);
+  return prepared.skipping.opaque_after < glm::length(size) / prepared.spacing;
 }
 
 StackGeometry make_slab_geometry(const PreparedScene& prepared) {
@@ -155,7 +161,7 @@ StackGeometry make_slab_geometry(const PreparedScene& prepared) {
   const std::size_t per_pass = prepared.scene.render.planes_per_pass;
   const std::vector<Slab> slabs = slabs_of(stack, per_pass);
   PassTiles tiles;
-  if (prepared.scene.render.skip != Skip::none && !slabs.empty()) {
+  if (prepared.skipping.empty && !slabs.empty()) {
     tiles = tiles_of_passes(prepared, std::min(slabs.front().first, slabs.back().first),
                             std::max(slabs.front().last, slabs.back().last));
   }

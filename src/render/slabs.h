@@ -7,8 +7,11 @@
 
 namespace slicelens {
 
-/// Whether pipeline and settings ask for slabs: more than one plane a pass, or skipping.
+/// Whether the stack is drawn by slabs: more than one plane a pass, or something to leave out.
 bool draws_slabs(const PreparedScene& prepared);
+
+/// Whether marks between passes can hide anything: the stack may become opaque before its end.
+bool marks_hidden(const PreparedScene& prepared);
 
 /// What each pass covers, in drawing order, one index end a pass. A vertex has its place in the picture,
 /// [−1, 1]² with y up, in position.xy, and the numbers k of its pass' first and last plane in texture.xy. The

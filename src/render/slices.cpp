@@ -71,7 +71,7 @@ SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepa
   const std::vector<EmbeddedFile> generated = generated_files(prepared);
   const std::string name = draws_slabs(prepared) ? "slabs" : "slices";
   std::vector<std::string> macros = common_macros(prepared);
-  if (prepared.scene.render.skip == Skip::empty_and_hidden)
+  if (marks_hidden(prepared))
     macros.emplace_back("HIDDEN");
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, name + ".vert", macros);
   const auto fragment = shader_stage(GL_FRAGMENT_SHADER, name + ".frag", macros, generated);
@@ -146,6 +146,9 @@ void SliceRenderer::draw_unhidden(const PreparedScene& prepared, const gl::Targe
   marks_->begin();
   const std::size_t every = std::max<std::size_t>(1, slices_per_mark / prepared.scene.render.planes_per_pass);
   const std::size_t count = index_ends_.size();
+  // Nothing is opaque before so many slices.
+  const double safe =
+      prepared.skipping.opaque_after / static_cast<double>(prepared.scene.render.planes_per_pass);
   for (std::size_t i = 0; i < count; i += every) {
     const std::size_t begin = i == 0 ? 0 : index_ends_[i - 1];
     const std::size_t end = index_ends_[std::min(count, i + every) - 1];
@@ -153,7 +156,7 @@ void SliceRenderer::draw_unhidden(const PreparedScene& prepared, const gl::Targe
     gl.BindVertexArray(vertex_array_.name());
     gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(end - begin), GL_UNSIGNED_INT,
                     reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
-    if (i + every < count)
+    if (i + every < count && static_cast<double>(i + every) >= safe)
       marks_->mark(marks_unit);
     if (progress.advance) {
       gl::finish(gl);
@@ -237,7 +240,7 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
     set_depth_test(gl, render);
   else
     set_blending(gl, render);
-  if (render.skip == Skip::empty_and_hidden)
+  if (marks_hidden(prepared))
     draw_unhidden(prepared, target, progress);
   else
     draw_stack(scene, progress);
