@@ -26,7 +26,7 @@ if(status)
 endif()
 file(RENAME "${base}/first" "${base}/moved")
 foreach(file ${BINDIR}/slicelens ${LIBDIR}/slicelens/libslicelens_codec.so
-        ${DATADIR}/slicelens/scenes/gallery/01_head_bone.json ${DATADIR}/slicelens/render_with_vtk
+        ${DATADIR}/slicelens/scenes/gallery/01_head_bone.json ${DATADIR}/slicelens/studies/lamar-table3.json ${DATADIR}/slicelens/render_with_vtk
         ${DOCDIR}/LICENSE)
   if(NOT EXISTS "${base}/moved/${file}")
     finish("${file} was not installed")

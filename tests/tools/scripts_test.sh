@@ -54,6 +54,10 @@ if command -v python3 >/dev/null; then
     expect 1 'the display :98765 cannot be opened; unset DISPLAY' env DISPLAY=:98765 "$vtk" --serve
   fi
 fi
+expect 0 'usage: tools/studies' "$checkout/tools/studies" --help
+expect 2 "studies: unknown option '--quick'" "$checkout/tools/studies" --quick
+expect 2 "studies: there is no study 'nope'; there are .*scaling" "$checkout/tools/studies" nope
+expect 2 'studies: -o needs a folder' "$checkout/tools/studies" -o
 expect 2 "setup-debian: unknown option 'x'" "$checkout/tools/setup-debian" x
 
 # Not root and no sudo: one line that names what to run. dpkg-query is a stand-in that knows of no package.

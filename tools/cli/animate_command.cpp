@@ -7,6 +7,7 @@
 #include "scene/vary.h"
 #include "study/ffmpeg.h"
 #include "study/inputs.h"
+#include "study/sweep/estimate.h"
 
 #include <algorithm>
 #include <chrono>
@@ -207,35 +208,6 @@ std::vector<std::size_t> missing_frames(const Animation& animation, const std::s
   return missing;
 }
 
-/// "2 min 5 s"
-std::string duration_text(double seconds) {
-  const long all = std::lround(std::ceil(seconds));
-  if (all < 60)
-    return std::to_string(all) + " s";
-  if (all < 3600)
-    return std::to_string(all / 60) + " min " + std::to_string(all % 60) + " s";
-  return std::to_string(all / 3600) + " h " + std::to_string(all % 3600 / 60) + " min";
-}
-
-/// What is left at the speed so far.
-void report_frames(const Progress& progress, std::size_t done, std::size_t all, double seconds) {
-  std::string stage = "frame " + std::to_string(done) + "/" + std::to_string(all);
-  const auto count = static_cast<double>(done);
-  if (done > 0 && done < all)
-    stage += ", " + duration_text(seconds / count * static_cast<double>(all - done)) + " left";
-  report_progress(progress, stage, count / static_cast<double>(all));
-}
-
-/// The console's progress without the stages of single frames, which would flicker; each warning once.
-Progress quiet(const Progress& console, std::set<std::string>& said) {
-  Progress progress;
-  progress.warn = [&console, &said](const std::string& message) {
-    if (said.insert(message).second)
-      report_warning(console, message);
-  };
-  return progress;
-}
-
 /// One context for all; the volume is read once.
 void render_frames(const Animation& animation, const std::vector<std::size_t>& missing,
                    const std::string& sha256, const Progress& console) {
@@ -243,20 +215,17 @@ void render_frames(const Animation& animation, const std::vector<std::size_t>& m
   const Progress progress = quiet(console, said);
   OpenContext context;
   std::optional<PreparedScene> prepared;
-  auto start = std::chrono::steady_clock::now();
+  Estimate estimate(console, "frame", missing.size());
   for (std::size_t done = 0; done < missing.size(); ++done) {
     const SceneInput input = frame_input(animation, missing[done]);
-    if (prepared) {
+    if (prepared)
       load_again(*prepared, input, progress);
-    } else {
+    else
       prepared = load(input, console);
-      start = std::chrono::steady_clock::now();
-    }
     RenderResult result = render_with(context, *prepared, progress);
     add_metadata(result, prepared->scene, sha256);
     write_image(result.image, animation.folder / frame_name(missing[done]), PixelDepth::png8);
-    const auto now = std::chrono::steady_clock::now();
-    report_frames(console, done + 1, missing.size(), std::chrono::duration<double>(now - start).count());
+    estimate.step();
   }
 }
 

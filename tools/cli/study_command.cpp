@@ -47,8 +47,9 @@ std::size_t report_failures(const StudyResults& results, bool whole) {
     if (!failed && !missing)
       continue;
     ++count;
-    std::fprintf(stderr, "slicelens: combination %zu (%s): %s\n", row.combination.index,
-                 label_text(row.combination.labels).c_str(),
+    const std::string labels = label_text(row.combination.labels);
+    std::fprintf(stderr, "slicelens: combination %zu%s: %s\n", row.combination.index,
+                 labels.empty() ? "" : (" (" + labels + ")").c_str(),
                  failed ? row.error.c_str() : "was not measured; run the study, or its other shards");
   }
   return count;

@@ -46,6 +46,18 @@ Combination combination_at(const Study& study, std::size_t number) {
   return combination;
 }
 
+/// Where relative paths of its files are looked for, in order and once each.
+std::vector<std::filesystem::path> folders_of(const BaseScene& base, const Study& study) {
+  std::vector<std::filesystem::path> folders;
+  for (std::filesystem::path folder : {base.folder, study.folder, std::filesystem::path(".")}) {
+    if (folder.empty())
+      folder = ".";
+    if (std::find(folders.begin(), folders.end(), folder) == folders.end())
+      folders.push_back(folder);
+  }
+  return folders;
+}
+
 std::string source_of(const BaseScene& base, const std::string& name) {
   return name.empty() ? base.source : base.source + " (" + name + ")";
 }
@@ -55,7 +67,7 @@ SceneInput volume_input(const BaseScene& base, const std::vector<KeyValue>& chan
   SceneInput input;
   input.source = source_of(base, name);
   input.scene = scene_from_json(base.text, input.source, changes);
-  input.folders = {base.folder, study.folder, "."};
+  input.folders = folders_of(base, study);
   return input;
 }
 
@@ -64,8 +76,7 @@ StudyInput any_input(const BaseScene& base, const std::vector<KeyValue>& changes
   if (!is_image_scene(base.text))
     return volume_input(base, changes, study, name);
   const std::string source = source_of(base, name);
-  return PictureInput{
-      image_scene_from_json(base.text, source, changes), {base.folder, study.folder, "."}, source};
+  return PictureInput{image_scene_from_json(base.text, source, changes), folders_of(base, study), source};
 }
 
 } // namespace

@@ -158,6 +158,15 @@ std::optional<double> derived(const StudyResults& results, const Row& row, const
     const auto samples = value_named(row.values, "samples");
     return samples ? std::optional<double>(*samples / draw->quartiles.median) : std::nullopt;
   }
+  if (column == "changed_rate") {
+    const Spread* deform = spread_named(row.seconds, "deform");
+    const Spread* slice = spread_named(row.seconds, "slice");
+    const Spread* tessellate = spread_named(row.seconds, "tessellate");
+    if (deform == nullptr || slice == nullptr || tessellate == nullptr)
+      return std::nullopt;
+    return draw->quartiles.median / (draw->quartiles.median + deform->quartiles.median +
+                                     slice->quartiles.median + tessellate->quartiles.median);
+  }
   const auto fragments = value_named(row.values, "fragments");
   if (!fragments)
     return std::nullopt;
@@ -281,7 +290,7 @@ std::vector<Column> columns_of(const StudyResults& results) {
     for (const char* name : {"processor_rate", "processor_rate_q1", "processor_rate_q3"})
       add(name);
   }
-  for (const char* name : {"fragments_per_s", "samples_per_s", "of_limit"}) {
+  for (const char* name : {"changed_rate", "fragments_per_s", "samples_per_s", "of_limit"}) {
     if (any([&](const Row& row) { return derived(results, row, name).has_value(); }))
       add(name);
   }
@@ -308,7 +317,8 @@ std::optional<double> number_in(const StudyResults& results, const Row& row, con
     return value;
   if (const auto value = rate_column(row.rate, column, "rate"))
     return value;
-  if (column == "fragments_per_s" || column == "samples_per_s" || column == "of_limit")
+  if (column == "changed_rate" || column == "fragments_per_s" || column == "samples_per_s" ||
+      column == "of_limit")
     return derived(results, row, column);
   if (const auto seconds = seconds_column(column)) {
     if (const Spread* spread = spread_named(row.seconds, seconds->first))

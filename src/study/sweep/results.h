@@ -76,7 +76,8 @@ struct Column {
 
 /// All columns that any row has: index, what varies, status, metrics, counts, draw_s … (median, first and
 /// third quartile, least, deviation, count for the drawing; medians of the other phases), rate with
-/// quartiles, fragments_per_s, of_limit (fragments a second by the machine's classified fill), the papers'
+/// quartiles, changed_rate (the frame's time at rest by that of deforming, slicing and drawing it),
+/// fragments_per_s, of_limit (fragments a second by the machine's classified fill), the papers'
 /// values, error.
 std::vector<Column> columns_of(const StudyResults& results);
 

@@ -2,6 +2,8 @@
 #include "study/sweep/results.h"
 #include "study/sweep/study_json.h"
 
+#include <algorithm>
+
 namespace slicelens {
 
 using study_json::Json;
@@ -35,6 +37,22 @@ Json spreads_json(const std::vector<std::pair<std::string, Spread>>& spreads) {
   for (const auto& [name, spread] : spreads)
     json[name] = spread_json(spread);
   return json;
+}
+
+/// What drew the rows: usually one, or several of our pipelines and a peer.
+Json drivers_json(const StudyResults& results) {
+  Json drivers = Json::array();
+  for (const Row& row : results.rows) {
+    const auto renderer = row.texts.find("renderer");
+    const auto version = row.texts.find("gl_version");
+    if (renderer == row.texts.end())
+      continue;
+    const Json driver = {{"GL_RENDERER", renderer->second},
+                         {"GL_VERSION", version == row.texts.end() ? "" : version->second}};
+    if (std::find(drivers.begin(), drivers.end(), driver) == drivers.end())
+      drivers.push_back(driver);
+  }
+  return drivers;
 }
 
 Json machine_json(const StudyResults& results) {
@@ -100,6 +118,7 @@ std::string results_json(const StudyResults& results) {
   const Json json = {{"study", Json::parse(results.study.json, nullptr, false)},
                      {"command", results.command},
                      {"machine", machine_json(results)},
+                     {"drivers", drivers_json(results)},
                      {"limits_fragments_per_s", spreads_json(results.limits)},
                      {"rows", rows}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

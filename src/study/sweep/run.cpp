@@ -1,9 +1,10 @@
 #include "study/sweep/run.h"
 
 #include "core/errors.h"
-#include "core/files.h"
 #include "image/image_io.h"
 #include "image/pictures.h"
+#include "study/sweep/estimate.h"
+#include "study/sweep/output_folder.h"
 #include "study/sweep/visits.h"
 
 #include <algorithm>
@@ -25,60 +26,6 @@ namespace fs = std::filesystem;
 constexpr double heat_scale = 0.1; ///< error that has the last colour of the heat maps
 constexpr std::size_t kept_references = 8;
 
-std::string duration_text(double seconds) {
-  const long all = std::lround(std::ceil(seconds));
-  if (all < 60)
-    return std::to_string(all) + " s";
-  if (all < 3600)
-    return std::to_string(all / 60) + " min";
-  return std::to_string(all / 3600) + " h " + std::to_string(all % 3600 / 60) + " min";
-}
-
-/// "picture 3/60, 2 min left"
-class Estimate {
-public:
-  Estimate(const Progress& progress, std::string stage, std::size_t count)
-      : progress_(progress), stage_(std::move(stage)), count_(count) {}
-
-  void step() {
-    ++done_;
-    const double passed = std::chrono::duration<double>(Clock::now() - start_).count();
-    const auto done = static_cast<double>(done_);
-    std::string text = stage_ + " " + std::to_string(done_) + "/" + std::to_string(count_);
-    if (done_ < count_)
-      text += ", " + duration_text(passed / done * static_cast<double>(count_ - done_)) + " left";
-    report_progress(progress_, text, done / static_cast<double>(count_));
-  }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  const Progress& progress_;
-  std::string stage_;
-  std::size_t count_ = 0;
-  std::size_t done_ = 0;
-  Clock::time_point start_ = Clock::now();
-};
-
-/// Each warning once, no stages of single frames.
-Progress quiet(const Progress& outer, std::set<std::string>& said) {
-  Progress progress;
-  progress.warn = [&outer, &said](const std::string& message) {
-    if (said.insert(message).second)
-      report_warning(outer, message);
-  };
-  return progress;
-}
-
-void make_folders(const fs::path& folder) {
-  for (const fs::path& path : {folder, folder / "pictures", folder / "references"}) {
-    std::error_code error;
-    fs::create_directories(path, error);
-    if (error)
-      throw FileError(path.string(),
-                      "cannot be made: " + error.message() + "; choose another folder with -o");
-  }
-}
-
 /// The study's identity: everything that its combinations follow from.
 std::string study_name(const Study& study) {
   std::string text = study.json;
@@ -94,18 +41,6 @@ std::string study_name(const Study& study) {
 std::string machine_line() {
   const Machine machine = this_machine();
   return machine.processor + ", " + machine.system + ", slicelens " + machine.version + " " + machine.commit;
-}
-
-void put_aside(const fs::path& journal) {
-  if (!fs::exists(journal))
-    return;
-  for (int i = 1;; ++i) {
-    const fs::path aside = journal.parent_path() / ("journal-" + std::to_string(i) + ".jsonl");
-    if (fs::exists(aside))
-      continue;
-    fs::rename(journal, aside);
-    return;
-  }
 }
 
 /// What `work` throws, as one line; nothing where all is well.
@@ -140,6 +75,7 @@ private:
   bool is_own(const Combination& one) const { return one.index % choice_.shards == choice_.shard - 1; }
   bool is_timed(const Combination& one) const;
   void find_states(bool all);
+  std::string reference_identity(const Combination& combination);
   void draw_pictures(Journal& journal);
   void draw_picture(Journal& journal, const Combination& combination);
   const Image& reference_image(const StudyInput& input, const std::string& name);
@@ -170,6 +106,18 @@ bool Sweep::is_timed(const Combination& one) const {
                       [&](const Condition& skip) { return holds(skip, one.labels); });
 }
 
+/// Scene and data of what the combination is compared with; empty without a reference.
+std::string Sweep::reference_identity(const Combination& combination) {
+  std::string text;
+  const std::string failure = failure_of([&] {
+    if (const auto reference = reference_of(study_, combination))
+      text = scene_text_of(*reference) + visitor_.sha256(*reference);
+  });
+  if (!failure.empty())
+    throw UsageError("the reference cannot be drawn: " + failure);
+  return text;
+}
+
 void Sweep::find_states(bool all) {
   std::set<std::size_t> baselines;
   for (const Combination& one : combinations_) {
@@ -191,9 +139,7 @@ void Sweep::find_states(bool all) {
       CombinationState state;
       state.id =
           content_name(label_text(one.labels) + "\n" + scene + "\n" + sha256 + "\n" + one.peer.value_or(""));
-      state.of = metrics;
-      if (const auto reference = reference_of(study_, one))
-        state.of += scene_text_of(*reference) + visitor_.sha256(*reference);
+      state.of = metrics + reference_identity(one);
       state.of = content_name(state.of);
       states_[one.index] = state;
     });
@@ -399,25 +345,6 @@ StudyResults Sweep::run() {
   results.load_at_start = load;
   results.load_at_end = load_average();
   return results;
-}
-
-void write_results(const StudyResults& results, const fs::path& folder) {
-  write_text_atomically(folder / "study.json", results.study.json + "\n");
-  write_text_atomically(folder / "results.csv", results_csv(results));
-  write_text_atomically(folder / "results.json", results_json(results));
-}
-
-void copy_pictures(const fs::path& from, const fs::path& to) {
-  for (const char* part : {"pictures", "references"}) {
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(from / part, error)) {
-      std::error_code failed;
-      fs::copy_file(entry.path(), to / part / entry.path().filename(), fs::copy_options::overwrite_existing,
-                    failed);
-      if (failed)
-        throw FileError((to / part).string(), "a picture cannot be copied there: " + failed.message());
-    }
-  }
 }
 
 } // namespace

@@ -74,7 +74,7 @@ struct PaperValues {
 /// A chart that the report draws beside the usual ones.
 struct StudyChart {
   std::string title;
-  std::string x;               ///< a varied column of numbers
+  std::string x;               ///< a column of numbers, varied or measured
   std::string y;               ///< any column of numbers
   std::vector<std::string> by; ///< columns with a line for each of their labels; empty: all others
   bool logarithmic = false;

@@ -11,6 +11,7 @@
 #include "study/peer.h"
 #include "study/process.h"
 #include "study/statistics.h"
+#include "study/sweep/deform_time.h"
 #include "study/sweep/fill_limits.h"
 #include "study/sweep/machine.h"
 
@@ -294,7 +295,10 @@ Seconds Visitor::time(const StudyInput& input, const std::optional<std::string>&
     return medians({}, time_reference(scene, protocol));
   open_context(state_->context, scene.scene);
   RenderSession session(*state_->context.context, scene, {});
-  return medians(session.set_up(), time_session(session, protocol));
+  Seconds seconds = medians(session.set_up(), time_session(session, protocol));
+  if (const auto deform = deform_seconds(*state_->context.context, scene))
+    seconds.insert(seconds.begin(), {"deform", *deform});
+  return seconds;
 }
 
 Seconds Visitor::time_limits(const StudyInput& like) {

@@ -39,9 +39,9 @@ public:
   DrawnPicture draw(const StudyInput& input, const std::optional<std::string>& peer,
                     const Progress& progress);
 
-  /// Seconds of the phases: upload, compile, slice, tessellate, draw, draw_gpu (where the driver has a
-  /// timer), draw_processor (of all threads), read. Each is the median of the protocol's frames, after its
-  /// warm-up.
+  /// Seconds of the phases: deform (a changed warp: deform_time.h), upload, compile, slice, tessellate, draw,
+  /// draw_gpu (where the driver has a timer), draw_processor (of all threads), read. Each is the median of
+  /// the protocol's frames, after its warm-up.
   Seconds time(const StudyInput& input, const std::optional<std::string>& peer,
                const TimingProtocol& protocol, const Progress& progress);
 

@@ -72,6 +72,17 @@ TEST_CASE("times are medians and quartiles of the rounds, rates go pair by pair"
   REQUIRE_FALSE(number_in(results, slices, "a paper").has_value());
 }
 
+TEST_CASE("a picture whose warp changes is slower by deforming and slicing it anew") {
+  JournalContents journal = measured();
+  for (TimedVisit& timed : journal.visits) {
+    if (timed.id == "a")
+      timed.seconds.insert(timed.seconds.end(), {{"deform", 1.0}, {"slice", 0.75}, {"tessellate", 0.25}});
+  }
+  const StudyResults results = collected(journal);
+  REQUIRE(number_in(results, results.rows[0], "changed_rate") == 0.5); // 2/(2 + 1 + .75 + .25)
+  REQUIRE_FALSE(number_in(results, results.rows[1], "changed_rate").has_value());
+}
+
 TEST_CASE("a baseline that was timed beside a visit counts before that of the round") {
   JournalContents journal = measured();
   journal.visits[3].seconds.emplace_back("baseline_draw", 6.0); // rays, round 2, 4 seconds

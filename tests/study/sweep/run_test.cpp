@@ -75,7 +75,15 @@ TEST_CASE("a study measures every combination and writes its table and pictures"
   REQUIRE(*number_in(results, results.rows[0], "fragments") ==
           Approx(*number_in(results, results.rows[1], "samples")).epsilon(0.02));
   REQUIRE(read_text(folder / "out" / "results.csv") == results_csv(results));
-  REQUIRE(read_text(folder / "out" / "results.json").find("\"GL_RENDERER\"") == std::string::npos);
+  const std::string json = read_text(folder / "out" / "results.json");
+  for (const char* key :
+       {"\"GL_RENDERER\"", "\"GL_VERSION\"", "\"commit\"", "\"processor\"", "\"study\"", "\"scene\""}) {
+    INFO(key);
+    REQUIRE(json.find(key) != std::string::npos);
+  }
+  const std::string report = read_text(folder / "out" / "report.html");
+  for (const Row& row : results.rows)
+    REQUIRE(report.find("\"" + row.texts.at("picture") + "\"") != std::string::npos);
 }
 
 TEST_CASE("an interrupted study goes on, shards join, and both give the table of an uninterrupted one",
@@ -186,4 +194,18 @@ TEST_CASE("2D lenses are compared and timed as volumes are", "[one-driver]") {
   // The formula at each fragment, against the same in doubles: floats of 24 bits (docs/tolerances.md).
   REQUIRE(*number_in(results, results.rows[0], "psnr") > 80);
   REQUIRE(results.rows[1].rate->values.size() == 2);
+}
+
+TEST_CASE("a warp's own phase is timed where there is a warp", "[one-driver]") {
+  const TemporaryFolder folder;
+  const Study small = study(R"({"scene": {"volume": {"phantom": "ball", "size": [8, 8, 8]},
+      "render": {"pipeline": "fragment", "size": [8, 8]}},
+    "vary": [{"name": "warp", "cases": {"none": {}, "landmarks": {"warp": {"kind": "landmarks", "space": "texture", "method": "bspline",
+      "pairs": [[[0.3, 0.3, 0.3], [0.35, 0.3, 0.3]], [[0.7, 0.7, 0.6], [0.7, 0.65, 0.6]]]}}}}],
+    "timing": {"rounds": 1, "limits": false}})");
+  const StudyResults results = run_study(small, folder / "out", {}, {});
+  REQUIRE(all_done(results));
+  REQUIRE_FALSE(number_in(results, results.rows[0], "deform_s").has_value());
+  REQUIRE(*number_in(results, results.rows[1], "deform_s") > 0);
+  REQUIRE(*number_in(results, results.rows[1], "changed_rate") < 1);
 }
