@@ -1,6 +1,7 @@
 #include "render/gpu_scene.h"
 
 #include "render/grid_textures.h"
+#include "render/occupancy.h"
 #include "render/pre_classification.h"
 #include "scene/names.h"
 #include "volume/pyramid.h"
@@ -104,8 +105,7 @@ gl::Texture upload_volume(const gl::Functions& gl, const Volume& volume, Filter 
 /// papers' hardware.
 gl::Texture upload_transfer(const gl::Functions& gl, const PreparedScene& prepared, GpuScene& scene) {
   const bool eight_bit = prepared.scene.render.transfer_texture == TransferTexture::rgba8;
-  const TransferTable table =
-      make_table(prepared.transfer, eight_bit ? 256 : 0, prepared.volume.min, prepared.volume.max);
+  const TransferTable table = drawn_table(prepared);
   const double count = static_cast<double>(texel_count(table));
   const double scale = (count - 1) / (count * (table.last - table.first));
   scene.transfer_from_value = glm::vec2(scale, 0.5 / count - scale * table.first);
@@ -181,12 +181,35 @@ void upload_all(const gl::Functions& gl, const PreparedScene& prepared, GLenum f
   }
 }
 
+/// What rays pass over. Slices know it before they are drawn (render/pass_tiles.h).
+void upload_occupancy(const gl::Functions& gl, const PreparedScene& prepared, GpuScene& scene) {
+  const RenderSettings& render = prepared.scene.render;
+  if (!prepared.skipping.empty || render.pipeline != Pipeline::rays)
+    return;
+  Occupancy occupancy = occupancy_of(prepared);
+  for (std::uint8_t& cell : occupancy.shows)
+    cell = cell > 0 ? 255 : 0;
+  gl::TextureSpec spec;
+  spec.format = GL_R8;
+  spec.filter = GL_NEAREST;
+  const auto& size = occupancy.size;
+  scene.occupancy = gl::make_texture_3d(
+      gl, spec, {static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])},
+      std::as_bytes(std::span(occupancy.shows)));
+  scene.bytes += occupancy.shows.size();
+}
+
 } // namespace
 
 VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type) {
   if (wish != VolumeTexture::automatic)
     return wish;
   return size_of(type) <= 2 ? VolumeTexture::r16 : VolumeTexture::r32f;
+}
+
+TransferTable drawn_table(const PreparedScene& prepared) {
+  const bool eight_bit = prepared.scene.render.transfer_texture == TransferTexture::rgba8;
+  return make_table(prepared.transfer, eight_bit ? 256 : 0, prepared.volume.min, prepared.volume.max);
 }
 
 GLenum texture_filter(Filter filter) {
@@ -244,6 +267,7 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
   if (!prepared.scene.transfer.shapes.empty())
     upload_transfer_2d(gl, prepared, scene);
   scene.bytes += upload_segments(gl, prepared, scene);
+  upload_occupancy(gl, prepared, scene);
   scene.labels = upload_labels(gl, prepared, progress);
   scene.bytes += scene.labels.bytes;
   for (const PreparedScene& other : prepared.others) {

@@ -31,6 +31,7 @@ struct GpuScene {
   GradientTexture gradients;      ///< for shading
   AxisTextures axis;              ///< empty but under pipeline `axis`
   std::vector<gl::Texture> grids; ///< of the maps that are held in grids, in their order
+  gl::Texture occupancy;          ///< 3D, one texel a cell: render.skip under pipeline `rays`
   LabelTextures labels;           ///< mode `two-level` only
   std::vector<GpuScene> others;   ///< of the volumes after the first
 };
@@ -38,6 +39,10 @@ struct GpuScene {
 /// The texture that render.volume_texture `auto` stands for: r16 for integers of 8 and 16 bits, which it
 /// holds exactly, else r32f. Not r8: software drivers filter 8-bit textures to 8 bits (docs/accuracy.md).
 VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type);
+
+/// The transfer function as the GPU reads it: the papers' 256 texels for an 8-bit texture, else as many as it
+/// needs.
+TransferTable drawn_table(const PreparedScene& prepared);
 
 /// How the driver filters the texture of a volume for render.filter: linearly as well where shaders build the
 /// cubic B-spline from linear fetches (shaders/gpu/volume.glsl).

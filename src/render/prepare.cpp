@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "render/bricks.h"
+#include "render/occupancy.h"
 #include "scene/camera.h"
 #include "scene/names.h"
 #include "volume/missing.h"
@@ -34,6 +35,7 @@ void set_volume(PreparedScene& prepared, Volume volume) {
   prepared.volume = std::move(volume);
   prepared.file_geometry = {prepared.volume.spacing, prepared.volume.origin, prepared.volume.direction};
   prepared.pyramid.clear();
+  prepared.cells.reset();
 }
 
 PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer, std::vector<LoadedVolume> others,
@@ -61,22 +63,6 @@ double pixels_per_unit(const PreparedScene& prepared, const LamarLens& lens) {
     return pixels_per_world * prepared.space.longest;
   const double distance = depth(view, world_from_texture(prepared.box, lens.center));
   return pixels_per_world * prepared.space.longest / std::max(distance, 1e-9 * prepared.space.longest);
-}
-
-/// Bounds of a lens' footprint over its whole depth, in box space: outer radius (a square's corners reach √2
-/// farther) at the deeper end, where perspective makes it largest.
-void include_footprint(const LamarMap& map, glm::dvec3& low, glm::dvec3& high) {
-  for (const double z : {-map.depth_outer, map.depth_outer}) {
-    const LensPlane plane = lens_plane(map, z);
-    for (const double x : {-1.0, 1.0}) {
-      for (const double y : {-1.0, 1.0}) {
-        const glm::dvec3 corner =
-            plane.axis_point + (map.outer * std::max(plane.scale, 0.0)) * (x * map.right + y * map.up);
-        low = glm::min(low, corner);
-        high = glm::max(high, corner);
-      }
-    }
-  }
 }
 
 /// The warp as one that is held in a grid, or nothing.
@@ -131,7 +117,9 @@ void prepare_warps(PreparedScene& prepared) {
     prepared.lenses.push_back(
         prepare_lens(*lens, prepared.space, prepared.warp_view, pixels_per_unit(prepared, *lens)));
     prepared.log_zoom = std::max(prepared.log_zoom, std::log(lens->zoom));
-    include_footprint(prepared.lenses.back().map, shown.low, shown.high);
+    const Bounds footprint = footprint_bounds(prepared.lenses.back().map);
+    shown.low = glm::min(shown.low, footprint.low);
+    shown.high = glm::max(shown.high, footprint.high);
   }
   refuse_overlap(prepared.lenses);
   prepared.object_low = texture_from_box(prepared.space, shown.low);
@@ -185,6 +173,18 @@ void prepare_pyramid(PreparedScene& prepared) {
   while (prepared.pyramid.size() < count)
     prepared.pyramid.push_back(
         half_size(prepared.pyramid.empty() ? prepared.volume : prepared.pyramid.back()));
+}
+
+/// What render.skip tells empty cells by. It depends on the data and the filter's reach, so it stays.
+void prepare_cells(PreparedScene& prepared) {
+  const RenderSettings& render = prepared.scene.render;
+  prepared.skipping = {};
+  if (render.skip == Skip::none)
+    return;
+  const std::size_t reach = render.filter == Filter::cubic ? 2 : 1;
+  if (!prepared.cells || prepared.cells->reach != reach)
+    prepared.cells = cell_ranges(prepared.volume, reach);
+  prepared.skipping = skipping_of(prepared);
 }
 
 /// Puts the volume where its placement says. `middle`: of the first volume, which `align` may ask for.
@@ -250,6 +250,7 @@ void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
   if (is_bricked(prepared))
     (void)plan_bricks(prepared); // refuses tiles and levels that the volume has no voxels for
   prepare_pyramid(prepared);
+  prepare_cells(prepared);
 }
 
 /// Widens the bounds of what is displayed to all volumes.

@@ -8,11 +8,13 @@
 #include "scene/scene.h"
 #include "slicing/polygon.h"
 #include "tess/lens_mesh.h"
+#include "volume/cell_ranges.h"
 #include "volume/transfer.h"
 #include "volume/volume.h"
 #include "warp/axis_tables.h"
 #include "warp/warp_grid.h"
 
+#include <limits>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -25,6 +27,14 @@ struct HeldWarp {
   std::variant<Landmarks, Field> warp;
   BoxSpace space;
   GridMap map;
+};
+
+/// What render.skip can leave out of a scene.
+struct Skipping {
+  bool empty = false; ///< enough cells show nothing for looking at them to pay
+  /// Slices, or steps of a ray, that may be opaque together; infinite where render.skip does not look for
+  /// them or no number can.
+  double opaque_after = std::numeric_limits<double>::infinity();
 };
 
 /// Where a volume's file puts it.
@@ -55,10 +65,12 @@ struct PreparedScene {
   std::vector<HeldWarp> held;                         ///< of the landmarks and fields among the warps
   std::optional<GridMap> map_grid;                    ///< pipeline `grid` only: all of `maps` in one
   GradientSpace gradient_space = GradientSpace::data; ///< where the differences of shading are taken
-  double log_zoom = 0;         ///< ln of their largest zoom, for render.levels; 0 without a lens
-  SampleSteps steps;           ///< from sample to sample, for render.footprint
-  std::size_t levels = 1;      ///< of the pyramid: render.levels, or what render.footprint needs of them
-  std::vector<Volume> pyramid; ///< levels 1, 2 … (volume/pyramid.h)
+  double log_zoom = 0;             ///< ln of their largest zoom, for render.levels; 0 without a lens
+  SampleSteps steps;               ///< from sample to sample, for render.footprint
+  std::size_t levels = 1;          ///< of the pyramid: render.levels, or what render.footprint needs of them
+  std::vector<Volume> pyramid;     ///< levels 1, 2 … (volume/pyramid.h)
+  std::optional<CellRanges> cells; ///< where render.skip needs them
+  Skipping skipping;               ///< under this transfer function
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};

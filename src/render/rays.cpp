@@ -4,6 +4,7 @@
 #include "gl/state.h"
 #include "gl/timer.h"
 #include "render/cut_planes.h"
+#include "render/occupancy.h"
 #include "render/ray_frame.h"
 #include "render/ray_uniforms.h"
 #include "render/several_volumes.h"
@@ -14,11 +15,26 @@
 
 namespace slicelens {
 
+namespace {
+
+/// Texture unit of the occupied cells: that of MIP's maxima, which rays do not have.
+constexpr GLenum occupancy_unit = 2;
+
+double ray_end_opacity(const PreparedScene& prepared) {
+  const RenderSettings& render = prepared.scene.render;
+  return render.skip == Skip::empty_and_hidden ? std::min(render.early_termination, opaque_enough)
+                                               : render.early_termination;
+}
+
+} // namespace
+
 RayRenderer::RayRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
   check_sample_count(prepared);
   std::vector<std::string> macros = common_macros(prepared);
-  if (prepared.scene.render.early_termination < 1)
+  if (ray_end_opacity(prepared) < 1)
     macros.emplace_back("EARLY_TERMINATION");
+  if (prepared.skipping.empty)
+    macros.emplace_back("OCCUPANCY");
   if (!prepared.scene.planes.empty())
     macros.push_back("CUT_PLANES " + std::to_string(prepared.scene.planes.size()));
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, "picture.vert", {});
@@ -39,7 +55,15 @@ void RayRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, con
   set_common_uniforms(gl, program_, prepared, scene);
   set_ray_uniforms(gl, program_, prepared);
   set_uniform(gl, program_, "xray_scale", static_cast<float>(prepared.xray_scale));
-  set_uniform(gl, program_, "early_termination", static_cast<float>(prepared.scene.render.early_termination));
+  set_uniform(gl, program_, "early_termination", static_cast<float>(ray_end_opacity(prepared)));
+  if (scene.occupancy) {
+    gl.ActiveTexture(GL_TEXTURE0 + occupancy_unit);
+    gl.BindTexture(GL_TEXTURE_3D, scene.occupancy.name());
+    set_uniform(gl, program_, "occupancy", static_cast<int>(occupancy_unit));
+    const auto& dims = prepared.volume.dims;
+    set_uniform(gl, program_, "cells_from_texture",
+                glm::vec3(dims[0], dims[1], dims[2]) / static_cast<float>(cell_edge));
+  }
   set_uniform(gl, program_, "world_from_direction", glm::mat3(prepared.box.world_from_texture));
   const std::vector<CutPlane> shown = cut_planes(prepared);
   for (std::size_t i = 0; i < shown.size(); ++i)

@@ -2,6 +2,7 @@
 
 #include "gl/timer.h"
 #include "render/render.h"
+#include "render/slabs.h"
 
 #include <chrono>
 
@@ -49,7 +50,8 @@ void RenderSession::slice() {
   if (std::holds_alternative<RayRenderer>(*renderer_))
     return;
   Clock::time_point mark = Clock::now();
-  const StackGeometry geometry = make_stack_geometry(*prepared_);
+  const StackGeometry geometry =
+      draws_slabs(*prepared_) ? make_slab_geometry(*prepared_) : make_stack_geometry(*prepared_);
   set_up_.slice = geometry.cut_seconds;
   set_up_.tessellate = lap(mark) - geometry.cut_seconds;
   if (auto* fixed = std::get_if<FixedFunctionRenderer>(&*renderer_))

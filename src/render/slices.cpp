@@ -6,6 +6,7 @@
 #include "render/ray_uniforms.h"
 #include "render/several_volumes.h"
 #include "render/shaders.h"
+#include "render/slabs.h"
 #include "render/stack_geometry.h"
 #include "render/tiled_draw.h"
 #include "render/uniforms.h"
@@ -30,6 +31,9 @@ glm::dvec2 value_from_unit(const PreparedScene& prepared) {
   const glm::dvec2 forward = unit_from_value(prepared);
   return {1 / forward.x, -forward.y / forward.x};
 }
+
+/// Texture unit of what is gathered, read between passes: that of MIP's maxima, which has nothing hidden.
+constexpr GLenum marks_unit = 2;
 
 /// Under MIP the winning sample keeps its own highlight and attenuation, which the largest of each channel
 /// would mix up: a depth test picks the sample instead.
@@ -65,9 +69,12 @@ void set_blending(const gl::Functions& gl, const RenderSettings& render) {
 
 SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
   const std::vector<EmbeddedFile> generated = generated_files(prepared);
-  std::vector<gl::ShaderSource> stages =
-      shader_stage(GL_VERTEX_SHADER, "slices.vert", common_macros(prepared));
-  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, "slices.frag", common_macros(prepared), generated);
+  const std::string name = draws_slabs(prepared) ? "slabs" : "slices";
+  std::vector<std::string> macros = common_macros(prepared);
+  if (marks_hidden(prepared))
+    macros.emplace_back("HIDDEN");
+  std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, name + ".vert", macros);
+  const auto fragment = shader_stage(GL_FRAGMENT_SHADER, name + ".frag", macros, generated);
   stages.insert(stages.end(), fragment.begin(), fragment.end());
   program_ = gl::make_program(gl, stages);
   if (!prepared.scene.planes.empty())
@@ -83,11 +90,14 @@ SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepa
   }
 }
 
-void SliceRenderer::slice(const PreparedScene& prepared) { set_geometry(make_stack_geometry(prepared)); }
+void SliceRenderer::slice(const PreparedScene& prepared) {
+  set_geometry(draws_slabs(prepared) ? make_slab_geometry(prepared) : make_stack_geometry(prepared));
+}
 
 void SliceRenderer::set_geometry(const StackGeometry& geometry) {
   index_ends_ = geometry.index_ends;
   batches_ = geometry.batches;
+  planes_in_passes_ = geometry.planes;
 
   const gl::StateGuard guard(*gl_);
   gl_->BindVertexArray(vertex_array_.name());
@@ -124,6 +134,34 @@ void SliceRenderer::draw_stack(const GpuScene& scene, const Progress& progress) 
       gl::finish(*gl_);
       report_progress(progress, "draw",
                       static_cast<double>(std::min(count, i + step)) / static_cast<double>(count));
+    }
+  }
+}
+
+void SliceRenderer::draw_unhidden(const PreparedScene& prepared, const gl::Target& target,
+                                  const Progress& progress) {
+  const gl::Functions& gl = *gl_;
+  if (!marks_ || !marks_->fits(target))
+    marks_.emplace(gl, target);
+  marks_->begin();
+  const std::size_t every = std::max<std::size_t>(1, slices_per_mark / prepared.scene.render.planes_per_pass);
+  const std::size_t count = index_ends_.size();
+  // Nothing is opaque before so many slices.
+  const double safe =
+      prepared.skipping.opaque_after / static_cast<double>(prepared.scene.render.planes_per_pass);
+  for (std::size_t i = 0; i < count; i += every) {
+    const std::size_t begin = i == 0 ? 0 : index_ends_[i - 1];
+    const std::size_t end = index_ends_[std::min(count, i + every) - 1];
+    gl.UseProgram(program_.name());
+    gl.BindVertexArray(vertex_array_.name());
+    gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(end - begin), GL_UNSIGNED_INT,
+                    reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
+    if (i + every < count && static_cast<double>(i + every) >= safe)
+      marks_->mark(marks_unit);
+    if (progress.advance) {
+      gl::finish(gl);
+      report_progress(progress, "draw",
+                      static_cast<double>(std::min(count, i + every)) / static_cast<double>(count));
     }
   }
 }
@@ -186,7 +224,9 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   set_uniform(gl, program_, "slope_from_pixel",
               glm::vec4(2 * half_width(view) / view.width, 2 * view.half_height / view.height,
                         -half_width(view), -view.half_height));
-  if (render.proxy == Proxy::shells || render.classification == Classification::preintegrated) {
+  if (draws_slabs(prepared))
+    set_slab_uniforms(gl, program_, prepared);
+  else if (render.proxy == Proxy::shells || render.classification == Classification::preintegrated) {
     set_ray_uniforms(gl, program_, prepared);
     set_uniform(gl, program_, "place_from_pixel", 2.0F / glm::vec2(view.width, view.height));
   }
@@ -200,7 +240,10 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
     set_depth_test(gl, render);
   else
     set_blending(gl, render);
-  draw_stack(scene, progress);
+  if (marks_hidden(prepared))
+    draw_unhidden(prepared, target, progress);
+  else
+    draw_stack(scene, progress);
   if (planes_)
     draw_planes_last(prepared, scene);
   if (maxima_)

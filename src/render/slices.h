@@ -7,6 +7,7 @@
 #include "render/carried_runs.h"
 #include "render/cut_planes.h"
 #include "render/gpu_scene.h"
+#include "render/hidden_marks.h"
 #include "render/stack_geometry.h"
 #include "slicing/slice_stack.h"
 
@@ -30,13 +31,15 @@ public:
   void draw(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target,
             const Progress& progress);
 
-  std::size_t slice_count() const { return index_ends_.size(); }
+  std::size_t slice_count() const { return planes_in_passes_ > 0 ? planes_in_passes_ : index_ends_.size(); }
   std::size_t triangle_count() const { return index_ends_.empty() ? 0 : index_ends_.back() / 3; }
   /// Draw calls of one picture that nobody watches.
   std::size_t draw_call_count() const { return batches_.empty() ? 1 : batches_.size(); }
 
 private:
   void draw_stack(const GpuScene& scene, const Progress& progress);
+  /// Passes of several slices front to back, with marks between them that hide what lies behind.
+  void draw_unhidden(const PreparedScene& prepared, const gl::Target& target, const Progress& progress);
   /// Local modes: slice by slice from the eye, whatever render.order is, then the colours into `target`.
   void draw_runs(const PreparedScene& prepared, const gl::Target& target, const Progress& progress);
   /// Opaque polygons stop what lies behind them by depth. Back to front they are what slices blend over;
@@ -50,11 +53,13 @@ private:
   gl::Program classify_program_;     ///< MIP only
   std::optional<gl::Target> maxima_; ///< MIP only
   std::optional<CarriedRuns> runs_;  ///< local modes of labels only
+  std::optional<HiddenMarks> marks_; ///< render.skip `empty+hidden` only
   gl::VertexArray vertex_array_;
   gl::VertexArray no_vertices_;
   gl::Buffer corners_;
   gl::Buffer indices_;
-  std::vector<std::size_t> index_ends_; ///< of each slice in the index buffer
+  std::vector<std::size_t> index_ends_; ///< of each slice, or pass of several, in the index buffer
+  std::size_t planes_in_passes_ = 0;    ///< where passes draw several (render/slabs.h)
   std::optional<PlaneRenderer> planes_; ///< where the scene has some
   std::vector<TileBatch> batches_;      ///< where the volume is held in tiles
 };

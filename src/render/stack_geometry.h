@@ -30,6 +30,7 @@ struct StackGeometry {
   /// where tiles share no more than edges: so blending is in order. Every other slice goes through its tiles
   /// backwards, so that a slice begins with the tile that the one before ended with.
   std::vector<TileBatch> batches;
+  std::size_t planes = 0; ///< of all passes, where a pass draws several (render/slabs.h); else 0
   double cut_seconds = 0; ///< wall clock of cutting planes with the box; what else the call takes is making
                           ///< triangles
 };

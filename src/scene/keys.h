@@ -190,6 +190,12 @@ void render_keys(Visitor& visit, Settings& s) {
   visit.per_axis("grid_size", s.grid_size,
                  "nodes of pipeline grid's 3D texture, 8 to 128; one number or one for each axis",
                  Range::positive);
+  visit.key(
+      "skip", s.skip,
+      "samples that are left out because they cannot change the picture: none, empty (where the transfer "
+      "function shows nothing) or empty+hidden (also behind opaque ones)");
+  visit.key("planes_per_pass", s.planes_per_pass,
+            "slices that one fragment samples before it blends, 1 to 64; 1: one, as the papers draw");
   visit.key("early_termination", s.early_termination, "rays stop at this opacity in (0,1]; 1: never",
             Range::unit);
   visit.key("background", s.background, "[r, g, b, a] in [0,1], not associated", Range::unit);

@@ -113,6 +113,12 @@ const std::vector<EnumName<Filter>>& names_of(Filter) {
   return names;
 }
 
+const std::vector<EnumName<Skip>>& names_of(Skip) {
+  static const std::vector<EnumName<Skip>> names = {
+      {Skip::none, "none"}, {Skip::empty, "empty"}, {Skip::empty_and_hidden, "empty+hidden"}};
+  return names;
+}
+
 const std::vector<EnumName<Target>>& names_of(Target) {
   static const std::vector<EnumName<Target>> names = {
       {Target::rgba8, "rgba8"}, {Target::rgba16f, "rgba16f"}, {Target::rgba32f, "rgba32f"}};

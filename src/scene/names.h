@@ -31,6 +31,7 @@ const std::vector<EnumName<GradientResolution>>& names_of(GradientResolution);
 const std::vector<EnumName<Classification>>& names_of(Classification);
 const std::vector<EnumName<Filter>>& names_of(Filter);
 const std::vector<EnumName<Footprint>>& names_of(Footprint);
+const std::vector<EnumName<Skip>>& names_of(Skip);
 const std::vector<EnumName<Target>>& names_of(Target);
 const std::vector<EnumName<VolumeTexture>>& names_of(VolumeTexture);
 const std::vector<EnumName<TransferTexture>>& names_of(TransferTexture);

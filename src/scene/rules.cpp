@@ -38,6 +38,7 @@ void validate(const Scene& scene) {
     if (volume_count(scene) > max_volumes)
       throw UsageError("volumes: at most " + std::to_string(max_volumes) + " can be shown at once");
     validate_several(scene);
+    validate_skip(scene);
     validate_annotations(scene);
     for (std::size_t i = 0; i < volume_count(scene); ++i) {
       try {
@@ -73,6 +74,8 @@ void validate(const Scene& scene) {
   validate_bricks(scene);
   validate_footprint(scene);
   validate_planes(scene);
+  validate_planes_per_pass(scene);
+  validate_skip(scene);
   validate_labels(scene);
   validate_gradients(scene);
   if (scene.crop) {

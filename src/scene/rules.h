@@ -26,6 +26,8 @@ void validate_fixed_function(const RenderSettings& render);
 void validate_shells(const Scene& scene);
 void validate_gradients(const Scene& scene);
 void validate_planes(const Scene& scene);
+void validate_planes_per_pass(const Scene& scene);
+void validate_skip(const Scene& scene);
 
 // Warps, effects and resolutions: rules_warps.cpp.
 void validate_effects(const Scene& scene);

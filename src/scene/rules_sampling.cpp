@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 namespace slicelens {
@@ -225,6 +226,76 @@ void validate_planes(const Scene& scene) {
     refuse("set render.classification to post and take another pipeline than fixed-function");
   if (render.tiles != std::array<std::size_t, 3>{1, 1, 1} || render.levels != 1)
     refuse("set render.tiles to [1,1,1] and render.levels to 1");
+}
+
+namespace {
+
+/// What slices cannot show where a fragment finds its samples itself (render/slabs.h).
+void validate_slabs(const Scene& scene, const std::function<void(const std::string&)>& refuse) {
+  const RenderSettings& render = scene.render;
+  if (render.pipeline == Pipeline::tessellated || render.pipeline == Pipeline::fixed_function)
+    refuse("finds samples at the fragment, and pipeline '" + word(render.pipeline) +
+           "' looks where the corners of triangles say; use slices, axis, fragment or grid");
+  if (render.mode == Mode::iso || render.mode == Mode::two_level)
+    refuse("composites samples, and mode '" + word(render.mode) +
+           "' is drawn slice by slice; use pipeline rays");
+  if (render.proxy == Proxy::shells)
+    refuse("knows planes only; set render.proxy to planes");
+  if (render.tiles != std::array<std::size_t, 3>{1, 1, 1})
+    refuse("crosses tiles at each fragment; set render.tiles to [1,1,1]");
+  if (!scene.planes.empty())
+    refuse("has no depth of a polygon for planes to stop; remove planes or use pipeline rays");
+}
+
+} // namespace
+
+/// Several slices sampled by one fragment, each where the fragment's own ray meets it.
+void validate_planes_per_pass(const Scene& scene) {
+  const RenderSettings& render = scene.render;
+  if (render.planes_per_pass < 1 || render.planes_per_pass > max_planes_per_pass) {
+    throw UsageError("render.planes_per_pass must be from 1 to " + std::to_string(max_planes_per_pass) +
+                     ", not " + std::to_string(render.planes_per_pass));
+  }
+  if (render.planes_per_pass == 1)
+    return;
+  const auto refuse = [](const std::string& problem) {
+    throw UsageError("render.planes_per_pass above 1 " + problem);
+  };
+  if (!draws_slices(render.pipeline))
+    refuse("is about slices, and pipeline '" + word(render.pipeline) + "' has none; set it to 1");
+  validate_slabs(scene, refuse);
+}
+
+/// Samples left out. Empty cells are known by their values' range, hidden ones from the front.
+void validate_skip(const Scene& scene) {
+  const RenderSettings& render = scene.render;
+  if (render.skip == Skip::none)
+    return;
+  const std::string key = "render.skip '" + word(render.skip) + "' ";
+  const auto refuse = [&](const std::string& problem) { throw UsageError(key + problem); };
+  const std::string off = "; set render.skip to none";
+  if (render.pipeline == Pipeline::reference)
+    refuse("is for slices and rays, the reference samples everything" + off);
+  if (!scene.others.empty())
+    refuse("knows the empty cells of one volume; show one or" + off.substr(1));
+  if (render.mode == Mode::average || render.mode == Mode::iso || render.mode == Mode::two_level)
+    refuse("cannot tell what mode '" + word(render.mode) + "' does not need" + off);
+  if (render.classification != Classification::post)
+    refuse("classifies the range of values around each sample; set render.classification to post or "
+           "render.skip to none");
+  if (render.levels != 1 || render.footprint == Footprint::mip ||
+      render.tiles != std::array<std::size_t, 3>{1, 1, 1})
+    refuse(
+        "knows the cells of one texture at full resolution; set render.tiles to [1,1,1], render.levels to 1 "
+        "and render.footprint to point, or render.skip to none");
+  if (render.skip == Skip::empty_and_hidden && render.mode != Mode::dvr)
+    refuse("is for mode dvr: nothing is hidden under mode '" + word(render.mode) +
+           "'; set render.skip to empty");
+  if (!draws_slices(render.pipeline))
+    return;
+  validate_slabs(scene, refuse);
+  if (render.skip == Skip::empty_and_hidden && render.order != Order::front_to_back)
+    refuse("sees from the front what is hidden; set render.order to front-to-back, or render.skip to empty");
 }
 
 } // namespace slicelens

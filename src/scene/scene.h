@@ -60,6 +60,9 @@ struct CameraSettings {
   std::optional<double> parallel_scale = std::nullopt;
 };
 
+/// Most planes that one fragment samples.
+inline constexpr std::size_t max_planes_per_pass = 64;
+
 enum class Pipeline { slices, tessellated, axis, fragment, grid, fixed_function, rays, reference };
 /// `two_level`: a transfer function and a mode for each label (Hauser, Mroz, Bischi and Gröller 2001).
 enum class Mode { dvr, mip, minip, average, xray, iso, two_level };
@@ -86,6 +89,9 @@ enum class Footprint { point, mip };
 enum class Target { rgba8, rgba16f, rgba32f };
 enum class VolumeTexture { automatic, r8, r16, r32f };
 enum class TransferTexture { rgba8, rgba32f };
+/// Which samples are left out because they cannot change the picture: none, those in cells of the volume
+/// where the transfer function shows nothing, and also those behind opaque ones.
+enum class Skip { none, empty, empty_and_hidden };
 /// How pipeline `axis` reads its tables.
 enum class AxisFilter { linear, nearest };
 enum class ContextName { automatic, osmesa, egl, window };
@@ -127,7 +133,9 @@ struct RenderSettings {
   std::size_t subdivision =
       32; ///< of `tessellated` without LaMar's own mesh: cells along a slice's longest edge
   std::array<std::size_t, 3> grid_size{32, 32, 32}; ///< nodes of `grid` on each axis
-  double early_termination = 1;                     ///< rays stop when their opacity reaches this; 1: never
+  Skip skip = Skip::none;
+  std::size_t planes_per_pass = 1; ///< slices that one fragment samples; 1: as the papers draw
+  double early_termination = 1;    ///< rays stop when their opacity reaches this; 1: never
   glm::dvec4 background{0, 0, 0, 1};
   ContextName context = ContextName::automatic;
 };

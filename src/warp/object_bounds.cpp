@@ -215,4 +215,37 @@ Bounds object_bounds(const WarpMap& map, const Bounds& box) {
   return std::visit([&](const auto& value) { return bounds_of(value, box); }, map);
 }
 
+// Outer radius (a square's corners reach √2 farther) at the deeper end, where perspective makes it largest.
+Bounds footprint_bounds(const LamarMap& map) {
+  Bounds bounds = empty_bounds();
+  for (const double z : {-map.depth_outer, map.depth_outer}) {
+    const LensPlane plane = lens_plane(map, z);
+    for (const double x : {-1.0, 1.0}) {
+      for (const double y : {-1.0, 1.0}) {
+        include(bounds,
+                plane.axis_point + (map.outer * std::max(plane.scale, 0.0)) * (x * map.right + y * map.up));
+      }
+    }
+  }
+  return bounds;
+}
+
+std::optional<Bounds> shown_bounds(const WarpMap& map, const Bounds& box) {
+  return std::visit(
+      [&](const auto& value) -> std::optional<Bounds> {
+        using Map = std::remove_cvref_t<decltype(value)>;
+        if constexpr (is_one_of<Map, BifocalMap, FisheyeMap, VolumeLensMap, ConnectedLensMap, GridMap>) {
+          return std::nullopt;
+        } else if constexpr (std::is_same_v<Map, LamarMap>) {
+          const Bounds footprint = footprint_bounds(value);
+          const bool meets = glm::all(glm::lessThanEqual(box.low, footprint.high)) &&
+                             glm::all(glm::greaterThanEqual(box.high, footprint.low));
+          return meets ? joined(box, footprint) : box;
+        } else {
+          return bounds_of(value, box);
+        }
+      },
+      map);
+}
+
 } // namespace slicelens

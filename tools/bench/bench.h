@@ -14,12 +14,12 @@
 namespace slicelens::bench {
 
 struct BenchOptions {
-  std::vector<std::string> sections; ///< "fill", "options", "phases"; empty: all
+  std::vector<std::string> sections; ///< "fill", "options", "phases" …; empty: all
   std::vector<std::string> volumes;  ///< files or folders for `phases`, beside the phantoms
   std::size_t edge = 256;            ///< voxels on an edge of the phantom of `fill` and `options`
   std::size_t picture = 512;         ///< pixels on an edge of the picture
   int runs = 9;                      ///< of each side
-  std::string only;                  ///< of `options`: variants whose name contains it
+  std::string only;                  ///< of `options`, `axis` and `skip`: those whose name contains it
   std::string context = "auto";      ///< render.context
 };
 
@@ -66,6 +66,7 @@ void run_axis(gl::Context& context, const BenchOptions& options);
 void run_deform(gl::Context& context, const BenchOptions& options);
 void run_grids(gl::Context& context, const BenchOptions& options);
 void run_drag(gl::Context& context, const BenchOptions& options);
+void run_skip(gl::Context& context, const BenchOptions& options);
 void run_vtk(gl::Context& context, const BenchOptions& options); ///< needs what docs/vtk.md lists
 
 } // namespace slicelens::bench

@@ -54,6 +54,8 @@ void run(const BenchOptions& options) {
       run_grids(context, options);
     if (wanted("drag"))
       run_drag(context, options);
+    if (wanted("skip"))
+      run_skip(context, options);
     if (!options.sections.empty() && wanted("vtk")) // needs more than this program
       run_vtk(context, options);
   }
@@ -72,17 +74,19 @@ int main(int argc, char** argv) {
   CLI::App app("Measures the slice pipeline against a bare loop, the cost of each option, and the phases of "
                "a picture. Prints Markdown.",
                "slicelens_bench");
-  app.add_option("sections", options.sections,
-                 "fill, options, lens2d, lens3d, axis, deform, grids, drag, phases; none: all of these; "
-                 "vtk: against VTK, where that is installed")
-      ->check(CLI::IsMember(
-          {"fill", "options", "lens2d", "lens3d", "axis", "deform", "grids", "drag", "phases", "vtk"}));
+  app.add_option(
+         "sections", options.sections,
+         "fill, options, lens2d, lens3d, axis, deform, grids, drag, skip, phases; none: all of these; "
+         "vtk: against VTK, where that is installed")
+      ->check(CLI::IsMember({"fill", "options", "lens2d", "lens3d", "axis", "deform", "grids", "drag", "skip",
+                             "phases", "vtk"}));
   app.add_option("--volume", options.volumes, "volume files or folders for `phases`")->type_name("PATH");
   app.add_option("--edge", options.edge, "voxels on an edge of the phantom")->check(CLI::Range(8, 1024));
   app.add_option("--picture", options.picture, "pixels on an edge of the picture")
       ->check(CLI::Range(16, 4096));
   app.add_option("--runs", options.runs, "runs of each side")->check(CLI::Range(3, 1000));
-  app.add_option("--only", options.only, "of `options` and `axis`: the variants whose name contains this")
+  app.add_option("--only", options.only,
+                 "of `options`, `axis` and `skip`: the variants whose name contains this")
       ->type_name("TEXT");
   app.add_option("--context", options.context, "auto, osmesa, egl or window");
   CLI11_PARSE(app, argc, argv);

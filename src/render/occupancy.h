@@ -1,0 +1,44 @@
+// Which cells of the volume show anything under the transfer function (render.skip). docs/skipping.md.
+#pragma once
+
+#include "render/prepare.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace slicelens {
+
+/// One entry for each cell of CellRanges, x fastest.
+struct Occupancy {
+  std::array<std::size_t, 3> size{0, 0, 0};
+  std::vector<std::uint8_t> shows; ///< 0 or 1
+  std::size_t count = 0;           ///< of those that show something
+};
+
+/// Cells in which a sample may have opacity: where the table of the transfer function, as the driver filters
+/// it, is above 0 anywhere between the smallest and the largest value that the filter may read, widened by
+/// what textures round values by. Modes `mip` and `minip`: anywhere up to the largest, down to the smallest
+/// value: a ray whose extreme value shows nothing is as empty as one without a sample. Conservative, never
+/// wrong. Needs prepared.cells.
+Occupancy occupancy_of(const PreparedScene& prepared);
+
+/// Share of occupied cells from which on looking at cells costs more than it saves (docs/skipping.md).
+inline constexpr double too_many_occupied = 0.7;
+
+/// The opacity behind which nothing is drawn. What could come through is at most 1/512 of a colour, half of
+/// what an 8-bit picture can show, so colours up to 2 (light may add to them) stay within 1/255.
+inline constexpr double opaque_enough = 1 - 1.0 / 512;
+
+/// Needs prepared.cells and everything but the view's own geometry.
+Skipping skipping_of(const PreparedScene& prepared);
+
+/// The texture coordinates of cell `index`: its lowest corner and its highest, at most 1.
+struct CellBox {
+  glm::dvec3 low{0};
+  glm::dvec3 high{1};
+};
+CellBox cell_box(const PreparedScene& prepared, std::size_t index);
+
+} // namespace slicelens

@@ -1,0 +1,30 @@
+// The smallest and the largest value around each cell of a volume: what tells where nothing shows.
+#pragma once
+
+#include "volume/volume.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace slicelens {
+
+/// Voxels along the edge of a cell.
+inline constexpr std::size_t cell_edge = 8;
+
+/// Cell (i, j, k) holds the points with texture coordinates from cell_edge·(i, j, k)/N to
+/// cell_edge·(i + 1, j + 1, k + 1)/N, the last ones less.
+struct CellRanges {
+  std::array<std::size_t, 3> size{0, 0, 0}; ///< cells on each axis: ⌈N/cell_edge⌉
+  std::size_t reach = 0;                    ///< see cell_ranges
+  std::vector<float> smallest; ///< of each cell, x fastest: at most the smallest value, rounded down
+  std::vector<float> largest;  ///< rounded up
+};
+
+/// Ranges of all voxels that a filter may read for points of a cell: those whose centres lie in it and
+/// `reach` more on each side. Linear filters read 1 (a point between the outermost centre and the face of its
+/// cell reads the next voxel), the cubic B-spline 2. All cores. `volume` has one component; values that are
+/// no number count as the volume's smallest.
+CellRanges cell_ranges(const Volume& volume, std::size_t reach);
+
+} // namespace slicelens

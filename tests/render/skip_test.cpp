@@ -1,0 +1,247 @@
+// Slices drawn several in a pass, and samples left out, show the picture of plain slices.
+//
+// Bars. Several planes a pass take the very samples of plain slices and composite them in the same order, so
+// only rounding parts them: 1e-4 of any value, most of it what floats make of a sample's place (3e-6 of the
+// volume) times the steepest slope of the transfer function. On the outline of the volume and of what
+// clipping planes leave, the rasteriser snaps the corners of polygons to 1/256 of a pixel and so adds or
+// leaves out single samples: at most 0.1 % of all values, where something shows there. Skipping leaves out
+// samples that are nothing, or behind 1 − 1/512 of opacity: 1/255.
+#include "catch.h"
+#include "render_fixture.h"
+#include "volume_fixture.h"
+
+using namespace slicelens;
+
+namespace {
+
+constexpr double rounding = 1e-4;
+constexpr double visible = 1.0 / 255;
+
+/// The head of 48³ voxels, bone dense and skin thin; air, and so the box's outline, is transparent.
+PreparedScene head_scene() {
+  return prepare_phantom(
+      R"({"volume":{"phantom":"head","size":[48,48,48]},"camera":{"azimuth":33,"elevation":21,"roll":10},
+          "render":{"size":[80,64],"filter":"linear-exact","background":[0,0,0,0]}})",
+      {{{-500, 0.4, 0.2, 0.1, 0}, {200, 0.8, 0.6, 0.4, 0.05}, {1200, 1, 1, 0.9, 0.7}}, std::nullopt, ""});
+}
+
+std::vector<std::string> with(std::vector<std::string> keys, const std::vector<std::string>& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+const std::vector<std::string> projections = {"orthographic", "perspective"};
+const std::string twist = R"(warp={"kind":"twist","axis":"z","angle":70})";
+const std::string lens = R"(warp={"kind":"lamar","center":[0.5,0.4,0.55],"inner":0.15,"outer":0.3,"zoom":3})";
+const std::string fisheye = R"(warp={"kind":"fisheye","distortion":3})";
+
+/// Plain slices against several planes a pass, both projections, all counts and both orders. `flips`: share
+/// of values that may be others because something shows on an outline.
+void check_passes(const std::vector<std::string>& settings, double flips = 0) {
+  gl::Context context = test_context();
+  for (const std::string& projection : projections) {
+    const PreparedScene plain = changed(head_scene(), with(settings, {"camera.projection=" + projection}));
+    const Image expected = picture(plain, context);
+    CHECK(share_over(expected, make_image(expected.width, expected.height), 0.02) > 0.02); // there is one
+    for (const std::string planes : {"2", "7", "64"}) {
+      for (const std::string order : {"back-to-front", "front-to-back"}) {
+        INFO(projection << ", " << planes << " planes, " << order);
+        const Image passes =
+            picture(changed(plain, {"render.planes_per_pass=" + planes, "render.order=" + order}), context);
+        CHECK(share_over(passes, expected, rounding) <= flips);
+      }
+    }
+  }
+}
+
+} // namespace
+
+TEST_CASE("planes in a pass are plain slices: emission and absorption") { check_passes({}); }
+TEST_CASE("planes in a pass are plain slices: maximum") { check_passes({"render.mode=mip"}); }
+TEST_CASE("planes in a pass are plain slices: minimum") {
+  check_passes({"render.mode=minip", R"(crop={"low":[0.31,0.32,0.3],"high":[0.7,0.71,0.69]})"}, 1e-3);
+}
+TEST_CASE("planes in a pass are plain slices: mean") {
+  check_passes({"render.mode=average", R"(crop={"low":[0.31,0.32,0.3],"high":[0.7,0.71,0.69]})"}, 1e-3);
+}
+TEST_CASE("planes in a pass are plain slices: X-ray") {
+  check_passes({"render.mode=xray", "render.xray_scale=0.1"});
+}
+TEST_CASE("planes in a pass are plain slices: diffuse light") {
+  check_passes({"render.shading=diffuse", "light.direction=[1,-1,0.5]"});
+}
+TEST_CASE("planes in a pass are plain slices: white highlights, light at the eye") {
+  check_passes({"render.shading=phong", "render.gradient=forward"});
+}
+TEST_CASE("planes in a pass are plain slices: tone") { check_passes({"render.shading=tone"}); }
+TEST_CASE("planes in a pass are plain slices: pre-integrated") {
+  check_passes({"render.classification=preintegrated"});
+}
+TEST_CASE("planes in a pass are plain slices: jitter") { check_passes({"render.jitter=0.8"}); }
+TEST_CASE("planes in a pass are plain slices: clipping planes") {
+  check_passes({R"(clip=[{"point":[0.51,0.5,0.5],"normal":[-1,0.3,0.2]}])", "render.spacing=0.6"}, 1e-3);
+}
+TEST_CASE("planes in a pass are plain slices: highlight and attenuation") {
+  check_passes({"render.pipeline=fragment", twist,
+                R"(highlight={"function":"distance","focus":[[0.3,0.6],[0.3,0.6],[0.3,0.6]]})",
+                R"(attenuation={"function":"distance","focus":[[0.3,0.6],[0.3,0.6],[0.3,0.6]]})"});
+}
+TEST_CASE("planes in a pass are plain slices: a maximum's own highlight") {
+  check_passes({"render.mode=mip", "render.pipeline=fragment", twist,
+                R"(highlight={"function":"distance","focus":[[0.3,0.6],[0.3,0.6],[0.3,0.6]]})"});
+}
+TEST_CASE("planes in a pass are plain slices: twist") {
+  check_passes({"render.pipeline=fragment", twist});
+  check_passes({"render.pipeline=fragment", twist, "render.shading=diffuse"});
+}
+TEST_CASE("planes in a pass are plain slices: a lens") { check_passes({"render.pipeline=fragment", lens}); }
+TEST_CASE("planes in a pass are plain slices: a grid") { check_passes({"render.pipeline=grid", twist}); }
+TEST_CASE("planes in a pass are plain slices: Cohen's tables") {
+  check_passes({"render.pipeline=axis", fisheye});
+}
+
+namespace {
+
+/// What plain slices are compared with. `hidden`: also empty+hidden; `flips`: share of values that may be
+/// others because something shows on an outline.
+struct Bar {
+  bool hidden = true;
+  double flips = 0;
+  double largest = visible;
+};
+constexpr Bar no_hidden{false};
+constexpr Bar outlines{true, 1e-3};
+
+/// Plain slices, or rays, against the same with samples left out, both projections, one slice or many in a
+/// pass.
+void check_skipping(const PreparedScene& scene, const std::vector<std::string>& settings,
+                    const Bar& bar = {}) {
+  gl::Context context = test_context();
+  for (const std::string& projection : projections) {
+    const PreparedScene plain = changed(scene, with(settings, {"camera.projection=" + projection}));
+    const Image expected = picture(plain, context);
+    const bool rays = plain.scene.render.pipeline == Pipeline::rays;
+    for (const std::string planes : {"1", "5", "32"}) {
+      if (rays && planes != "1")
+        continue;
+      INFO(projection << ", " << planes << " planes");
+      const std::vector<std::string> keys = {"render.planes_per_pass=" + planes, "render.skip=empty"};
+      CHECK(share_over(picture(changed(plain, keys), context), expected, bar.largest) <= bar.flips);
+      if (!bar.hidden)
+        continue;
+      std::vector<std::string> more = {"render.planes_per_pass=" + planes, "render.skip=empty+hidden"};
+      if (!rays)
+        more.push_back("render.order=front-to-back");
+      CHECK(share_over(picture(changed(plain, more), context), expected, bar.largest) <= bar.flips);
+    }
+  }
+}
+
+/// The head under functions that show much, little, a narrow band, and its inside only.
+void check_functions(const std::vector<std::string>& settings, const Bar& bar = {}) {
+  PreparedScene scene = head_scene();
+  const std::vector<TransferFunction> functions = {
+      scene.transfer,
+      rising(-900, 1200, 0.02),
+      rising(300, 310, 1),
+      {{{50, 1, 0.5, 0.2, 0}, {60, 1, 0.5, 0.2, 0.8}, {70, 1, 0.5, 0.2, 0}}, std::nullopt, "band"}};
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    INFO("function " << i);
+    scene.transfer = functions[i];
+    check_skipping(scene, settings, bar);
+  }
+}
+
+/// A volume of 24³ zeros but for what f says, one world unit a voxel.
+template <class Function>
+PreparedScene small_scene(TransferFunction transfer, const Function& f) {
+  return prepare(scene_from_json(R"({"volume":{"phantom":"head"},"camera":{"azimuth":33,"elevation":21},
+      "render":{"size":[64,48],"background":[0,0,0,0]}})",
+                                 "test"),
+                 volume_of(ScalarType::u16, {24, 24, 24}, f), std::move(transfer));
+}
+
+TransferFunction tent(double value) {
+  return {{{value - 1, 1, 1, 1, 0}, {value, 1, 1, 1, 1}, {value + 1, 1, 1, 1, 0}}, std::nullopt, "tent"};
+}
+
+} // namespace
+
+TEST_CASE("skipping changes nothing: emission and absorption") { check_functions({}); }
+TEST_CASE("skipping changes nothing: diffuse light") { check_functions({"render.shading=diffuse"}); }
+TEST_CASE("skipping changes nothing: white highlights") { check_functions({"render.shading=phong"}); }
+TEST_CASE("skipping changes nothing: cubic filter") { check_functions({"render.filter=cubic"}); }
+TEST_CASE("skipping changes nothing: nearest filter") { check_functions({"render.filter=nearest"}); }
+TEST_CASE("skipping changes nothing: maximum") { check_functions({"render.mode=mip"}, no_hidden); }
+TEST_CASE("skipping changes nothing: minimum") {
+  check_functions({"render.mode=minip", R"(crop={"low":[0.31,0.32,0.3],"high":[0.7,0.71,0.69]})"},
+                  {false, 1e-3});
+}
+TEST_CASE("skipping changes nothing: X-ray") {
+  check_functions({"render.mode=xray", "render.xray_scale=0.1"}, no_hidden);
+}
+TEST_CASE("skipping changes nothing: jitter and fine spacing") {
+  check_functions({"render.jitter=1", "render.spacing=0.4"});
+}
+TEST_CASE("skipping changes nothing: gradients change opacities") {
+  check_functions({"render.modulate_by_gradient=100"});
+}
+TEST_CASE("skipping changes nothing: clipping planes") {
+  check_functions({R"(clip=[{"point":[0.51,0.5,0.5],"normal":[-1,0.3,0.2]}])"}, outlines);
+}
+TEST_CASE("skipping changes nothing: twist") { check_functions({"render.pipeline=fragment", twist}); }
+TEST_CASE("skipping changes nothing: a lens") { check_functions({"render.pipeline=fragment", lens}); }
+TEST_CASE("skipping changes nothing: a twisted lens, clipped on display") {
+  check_functions({"render.pipeline=fragment", "warp=[" + lens.substr(5) + "," + twist.substr(5) + "]",
+                   R"(clip=[{"point":[0.5,0.5,0.5],"normal":[-1,0.3,0.2],"space":"object"}])"});
+}
+TEST_CASE("skipping changes nothing: fisheye and grid, whose bounds are not known") {
+  check_functions({"render.pipeline=axis", fisheye});
+  check_functions({"render.pipeline=grid", twist});
+}
+TEST_CASE("skipping changes nothing: rays") {
+  check_functions({"render.pipeline=rays"});
+  check_functions({"render.pipeline=rays", "render.shading=diffuse"});
+  check_functions({"render.pipeline=rays", "render.mode=mip"}, no_hidden);
+  check_functions({"render.pipeline=rays", "render.mode=xray", "render.xray_scale=0.1"}, no_hidden);
+  check_functions({"render.pipeline=rays", twist});
+  check_functions({"render.pipeline=rays", lens, "render.jitter=1"});
+}
+TEST_CASE("skipping changes nothing: the papers' 8 bits") {
+  // Drivers round what they filter of 8-bit textures to 8 bits; the last bit of a place may take it to the
+  // next code.
+  check_functions({"render.volume_texture=r8", "render.transfer_texture=rgba8"}, {true, 0, 2 * visible});
+}
+
+TEST_CASE("skipping keeps one voxel in the corner of empty cells") {
+  for (const int at : {7, 8, 15, 16, 23, 0}) {
+    for (const std::string filter : {"linear", "linear-exact", "cubic", "nearest"}) {
+      INFO("voxel " << at << ", " << filter);
+      const PreparedScene scene = small_scene(
+          rising(0, 1000, 1), [&](int i, int j, int k) { return i == at && j == at && k == at ? 1000 : 0; });
+      gl::Context context = test_context();
+      const PreparedScene filtered = changed(scene, {"render.filter=" + filter, "render.spacing=0.3"});
+      const Image expected = picture(filtered, context);
+      CHECK(share_over(expected, make_image(64, 48), 0.1) > 0);
+      check_skipping(scene, {"render.filter=" + filter, "render.spacing=0.3"});
+    }
+  }
+}
+
+TEST_CASE("skipping keeps values that show only exactly") {
+  // A ramp whose single steps are each one value; only one shows. Then only the smallest, only the largest.
+  const auto ramp = [](int i, int, int) { return 100 * i; };
+  for (const double value : {1100.0, 0.0, 2300.0, 1150.0})
+    check_skipping(small_scene(tent(value), ramp), {"render.spacing=0.25"});
+  check_skipping(small_scene(step_transfer(1600, {0, 0, 0, 0}, {1, 1, 1, 1}), ramp), {});
+}
+
+TEST_CASE("skipping: opaque from the first slice, all empty, all full") {
+  const auto ramp = [](int i, int j, int k) { return 10 * (i + j + k); };
+  check_skipping(small_scene(grey(1), ramp), {}, outlines);
+  check_skipping(small_scene(grey(0), ramp), {});
+  check_skipping(small_scene(grey(0.01), ramp), {}, outlines);
+  check_skipping(small_scene(grey(0.6), ramp), {"render.pipeline=rays"});
+  check_skipping(small_scene(grey(0), ramp), {"render.pipeline=rays"});
+  check_skipping(small_scene(grey(0), ramp), {"render.mode=mip"}, no_hidden);
+}
