@@ -26,8 +26,8 @@ KeyValue parse_assignment(const std::string& text);
 Scene scene_from_json(const std::string& text, const std::string& source,
                       const std::vector<KeyValue>& changes = {});
 
-/// The same without validate(Scene): the keys and the types and ranges of their values are right, whether they
-/// go together is not yet asked.
+/// The same without validate(Scene): the keys and the types and ranges of their values are right, whether
+/// they go together is not yet asked.
 Scene scene_keys_from_json(const std::string& text, const std::string& source,
                            const std::vector<KeyValue>& changes = {});
 
