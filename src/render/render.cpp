@@ -1,31 +1,17 @@
 #include "render/render.h"
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "render/reference.h"
 #include "render/render_session.h"
 #include "render/scene_overlay.h"
 #include "scene/names.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace slicelens {
 
 namespace {
-
-/// Seconds since the last call.
-class Stopwatch {
-public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
-
-private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 std::string limits_text(const gl::Limits& limits) {
   return "2D " + std::to_string(limits.texture_size) + ", 3D " + std::to_string(limits.texture_size_3d) +

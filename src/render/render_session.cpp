@@ -1,39 +1,25 @@
 #include "render/render_session.h"
 
+#include "core/stopwatch.h"
 #include "gl/timer.h"
 #include "render/render.h"
 #include "render/slabs.h"
 
-#include <chrono>
-
 namespace slicelens {
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double lap(Clock::time_point& mark) {
-  const Clock::time_point now = Clock::now();
-  const double seconds = std::chrono::duration<double>(now - mark).count();
-  mark = now;
-  return seconds;
-}
-
-} // namespace
 
 RenderSession::RenderSession(gl::Context& context, const PreparedScene& prepared, const Progress& progress)
     : context_(&context), prepared_(&prepared) {
   const gl::Functions& gl = context.functions();
-  Clock::time_point mark = Clock::now();
+  Stopwatch watch;
   textures_ = upload(gl, prepared, progress);
   target_ = gl::make_target(gl, prepared.view.width, prepared.view.height,
                             texture_format(prepared.scene.render.target));
   if (!prepared.scene.planes.empty())
     gl::attach_depth(gl, target_);
   gl::finish(gl);
-  set_up_.upload = lap(mark);
+  set_up_.upload = watch.lap();
   renderer_.emplace(make_renderer());
-  set_up_.compile = lap(mark);
+  set_up_.compile = watch.lap();
   slice();
 }
 
@@ -49,17 +35,17 @@ RenderSession::Renderer RenderSession::make_renderer() {
 void RenderSession::slice() {
   if (std::holds_alternative<RayRenderer>(*renderer_))
     return;
-  Clock::time_point mark = Clock::now();
+  Stopwatch watch;
   const StackGeometry geometry =
       draws_slabs(*prepared_) ? make_slab_geometry(*prepared_) : make_stack_geometry(*prepared_);
   set_up_.slice = geometry.cut_seconds;
-  set_up_.tessellate = lap(mark) - geometry.cut_seconds;
+  set_up_.tessellate = watch.lap() - geometry.cut_seconds;
   if (auto* fixed = std::get_if<FixedFunctionRenderer>(&*renderer_))
     fixed->set_geometry(geometry);
   else
     std::get<SliceRenderer>(*renderer_).set_geometry(geometry);
   gl::finish(context_->functions());
-  set_up_.upload += lap(mark);
+  set_up_.upload += watch.lap();
 }
 
 void RenderSession::draw_frame(const Progress& progress) {
@@ -70,7 +56,7 @@ DrawTime RenderSession::draw(const Progress& progress, std::size_t batch) {
   const gl::Functions& gl = context_->functions();
   gl::finish(gl);
   DrawTime time;
-  Clock::time_point mark = Clock::now();
+  Stopwatch watch;
   gl::TimerQuery query(gl);
   query.begin();
   for (std::size_t i = 0; i < batch; ++i) {
@@ -79,7 +65,7 @@ DrawTime RenderSession::draw(const Progress& progress, std::size_t batch) {
   }
   gl::finish(gl);
   query.end();
-  time.wall = lap(mark) / static_cast<double>(batch);
+  time.wall = watch.lap() / static_cast<double>(batch);
   if (const auto nanoseconds = query.result_nanoseconds())
     time.gpu = static_cast<double>(*nanoseconds) * 1e-9 / static_cast<double>(batch);
   return time;

@@ -1,19 +1,17 @@
 #include "render/slabs.h"
 
+#include "core/stopwatch.h"
 #include "render/occupancy.h"
 #include "render/pass_tiles.h"
 #include "render/ray_uniforms.h"
 #include "slicing/slice_stack.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace slicelens {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// The planes of the stack as make_stack_geometry cuts them, but wherever the displayed volume may be: which
 /// samples are in it is for the fragments to decide.
@@ -152,11 +150,11 @@ bool marks_hidden(const PreparedScene& prepared) {
 }
 
 StackGeometry make_slab_geometry(const PreparedScene& prepared) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   const SliceStack stack = make_slice_stack(plane_request(prepared));
   StackGeometry geometry;
   geometry.planes = stack.slices.size();
-  geometry.cut_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  geometry.cut_seconds = watch.seconds();
   const glm::dmat4 to_clip = clip_from_texture(prepared);
   const std::size_t per_pass = prepared.scene.render.planes_per_pass;
   const std::vector<Slab> slabs = slabs_of(stack, per_pass);

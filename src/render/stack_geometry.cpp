@@ -1,25 +1,19 @@
 #include "render/stack_geometry.h"
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "render/bricks.h"
 #include "slicing/shell_stack.h"
 #include "slicing/slice_stack.h"
 #include "tess/subdivided_slice.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 namespace slicelens {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void append_mesh(StackGeometry& geometry, const LensMesh& mesh) {
   if (geometry.vertices.size() + mesh.vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
@@ -71,10 +65,10 @@ StackGeometry shell_geometry(const PreparedScene& prepared, SliceRequest request
   request.low = prepared.object_low;
   request.high = prepared.object_high;
   const Interval depths = drawn_depths(prepared);
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   const SliceStack stack = make_shell_stack(request, (depths.near + depths.far) / 2);
   StackGeometry geometry;
-  geometry.cut_seconds = seconds_since(start);
+  geometry.cut_seconds = watch.seconds();
   for (const Slice& slice : stack.slices) {
     const auto first = static_cast<std::uint32_t>(geometry.vertices.size());
     for (std::uint32_t i = 0; i < slice.count; ++i) {
@@ -132,10 +126,10 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
     request.low = prepared.object_low - margin;
     request.high = prepared.object_high + margin;
   }
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   const SliceStack stack = make_slice_stack(request);
   StackGeometry geometry;
-  geometry.cut_seconds = seconds_since(start);
+  geometry.cut_seconds = watch.seconds();
   if (is_subdivided(prepared))
     check_cells(stack, render.subdivision);
 

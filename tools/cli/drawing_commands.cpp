@@ -166,8 +166,8 @@ void add_study(CLI::App& app, StudyOptions& options, std::function<void()>& run)
       "study", "measure quality and time of every combination that a study file names, and report them");
   command.footer(
       "Writes results.csv, results.json, report.html and the pictures into DIR, and keeps every measurement "
-      "in "
-      "journal.jsonl:\ncalled again, an interrupted study goes on where it was. A combination that fails is "
+      "in journal.jsonl:\ncalled again, an interrupted study goes on where it was. A combination that fails "
+      "is "
       "listed and does not stop the others;\nthe exit status is then 1. Shards go into folders of their own "
       "and are joined by --merge.\n\n"
       "  slicelens study studies/lamar-table3.json -o lamar3\n"
@@ -194,8 +194,7 @@ void add_tables(CLI::App& app, TablesOptions& options, std::function<void()>& ru
   CLI::App& command = *app.add_subcommand(
       "tables", "make the tables and numbers of documents anew from the results of studies");
   command.footer("Replaces what stands between the marks <!-- study NAME: COLUMNS --> and <!-- end --> of "
-                 "Markdown files "
-                 "(docs/studies.md)\nand names the files that changed.\n\n"
+                 "Markdown files (docs/studies.md)\nand names the files that changed.\n\n"
                  "  slicelens tables docs/benchmarks.md --results out/studies");
   command.add_option("documents", options.documents, "Markdown files")->required()->type_name("");
   command

@@ -1,10 +1,9 @@
 #include "study/sweep/deform_time.h"
 
+#include "core/stopwatch.h"
 #include "gl/timer.h"
 #include "render/axis_textures.h"
 #include "render/grid_textures.h"
-
-#include <chrono>
 
 namespace slicelens {
 
@@ -17,14 +16,14 @@ std::optional<double> deform_seconds(gl::Context& context, const PreparedScene& 
   for (PreparedScene& other : copy.others)
     other.held.clear();
   gl::finish(gl);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   prepare_again(copy);
   const auto grids = upload_grids(gl, drawn_maps(copy));
   AxisTextures tables;
   if (copy.scene.render.pipeline == Pipeline::axis)
     (void)upload_axis_tables(gl, copy, tables);
   gl::finish(gl);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return watch.seconds();
 }
 
 } // namespace slicelens

@@ -19,7 +19,7 @@ Estimate::Estimate(const Progress& progress, std::string stage, std::size_t coun
 
 void Estimate::step() {
   ++done_;
-  const double passed = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double passed = watch_.seconds();
   const auto done = static_cast<double>(done_);
   std::string text = stage_ + " " + std::to_string(done_) + "/" + std::to_string(count_);
   if (done_ < count_)

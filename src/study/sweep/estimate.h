@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/progress.h"
+#include "core/stopwatch.h"
 
-#include <chrono>
 #include <cstddef>
 #include <set>
 #include <string>
@@ -20,12 +20,11 @@ public:
   void step();
 
 private:
-  using Clock = std::chrono::steady_clock;
   const Progress& progress_;
   std::string stage_;
   std::size_t count_ = 0;
   std::size_t done_ = 0;
-  Clock::time_point start_ = Clock::now();
+  Stopwatch watch_;
 };
 
 /// Progress of one step of many: each warning once (`said` keeps them), no stages of its own, which would

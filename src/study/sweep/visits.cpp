@@ -1,6 +1,7 @@
 #include "study/sweep/visits.h"
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "gl/state.h"
 #include "gl/timer.h"
 #include "image/image_io.h"
@@ -16,7 +17,6 @@
 #include "study/sweep/machine.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 
@@ -25,10 +25,6 @@ namespace slicelens {
 namespace {
 
 constexpr std::size_t kept_volumes = std::size_t{2} << 30;
-
-double wall_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -58,10 +54,10 @@ Seconds medians(const SetUpTimes& set_up, const FrameTimes& frames) {
 FrameTimes time_reference(const PreparedScene& prepared, const TimingProtocol& protocol) {
   FrameTimes times;
   for (std::size_t i = 0; i < protocol.frames; ++i) {
-    const double start = wall_seconds();
+    const Stopwatch watch;
     const double processor = processor_seconds();
     (void)render(prepared, nullptr, {});
-    times.draw.push_back(wall_seconds() - start);
+    times.draw.push_back(watch.seconds());
     times.processor.push_back(processor_seconds() - processor);
   }
   return times;
@@ -78,9 +74,9 @@ FrameTimes time_session(RenderSession& session, const TimingProtocol& protocol) 
     times.draw.push_back(drawn.wall);
     if (drawn.gpu)
       times.gpu.push_back(*drawn.gpu);
-    const double start = wall_seconds();
+    const Stopwatch watch;
     (void)session.read();
-    times.read.push_back(wall_seconds() - start);
+    times.read.push_back(watch.seconds());
   }
   return times;
 }
@@ -160,6 +156,7 @@ DrawnPicture Visitor::State::draw_volume(const SceneInput& input, const Progress
   forget_peak_memory();
   RenderResult result = render_with(context, prepared, progress);
   add_metadata(result, prepared.scene, sha256);
+  const auto peak = static_cast<double>(peak_memory()); // before the second session below
   DrawnPicture drawn;
   const auto count = [&](const char* name, double value) { drawn.counts.emplace_back(name, value); };
   if (draws_slices(prepared.scene.render.pipeline)) {
@@ -174,7 +171,7 @@ DrawnPicture Visitor::State::draw_volume(const SceneInput& input, const Progress
     count("samples", samples_along_rays(prepared));
   }
   count("texture_bytes", static_cast<double>(result.texture_bytes));
-  count("peak_bytes", static_cast<double>(peak_memory()));
+  count("peak_bytes", peak);
   drawn.texts = {{"renderer", result.renderer},
                  {"gl_version", result.version},
                  {"context", result.context},
