@@ -25,6 +25,12 @@ void volume_keys(Visitor& visit, Settings& s) {
   visit.key("series", s.series, "which DICOM series of a folder (UID, or a part that only one has)");
   visit.key("labels", s.labels,
             "label volume on the same grid, for mode two-level: a file, or a phantom's name");
+  visit.key(
+      "access", s.access,
+      "where the voxels are while they are drawn: memory, stream (read from the file as they are needed: "
+      "raw, raw NRRD and MetaImage, DICOM), cache (a copy in bricks, made once) or auto (memory while "
+      "render.memory holds them, else stream, else cache)");
+  visit.key("cache", s.cache, "file of the copy in bricks (none: one of the user's cache folder)");
 }
 
 template <class Visitor, class Settings>
@@ -180,6 +186,13 @@ void render_keys(Visitor& visit, Settings& s) {
       "the coarsest, a border those between; 1: full resolution everywhere. With footprint mip the most "
       "levels "
       "there may be; 1: as many as the picture needs");
+  visit.key(
+      "memory", s.memory,
+      "MiB of textures that the volume may take; a larger one is drawn through a pool of bricks of this "
+      "size (none: 1024)",
+      Range::positive);
+  visit.key("brick", s.brick, "voxels along the edge of such a brick, 16 to 128 in steps of 8",
+            Range::positive);
   visit.key("axis_texels", s.axis_texels,
             "texels of each 1D texture of pipeline axis, 16 to 4096 (none: one for each voxel)");
   visit.key("axis_filter", s.axis_filter, "how pipeline axis reads its 1D textures: linear or nearest");

@@ -113,6 +113,14 @@ const std::vector<EnumName<Filter>>& names_of(Filter) {
   return names;
 }
 
+const std::vector<EnumName<VolumeAccess>>& names_of(VolumeAccess) {
+  static const std::vector<EnumName<VolumeAccess>> names = {{VolumeAccess::automatic, "auto"},
+                                                            {VolumeAccess::memory, "memory"},
+                                                            {VolumeAccess::stream, "stream"},
+                                                            {VolumeAccess::cache, "cache"}};
+  return names;
+}
+
 const std::vector<EnumName<Skip>>& names_of(Skip) {
   static const std::vector<EnumName<Skip>> names = {
       {Skip::none, "none"}, {Skip::empty, "empty"}, {Skip::empty_and_hidden, "empty+hidden"}};

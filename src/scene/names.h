@@ -17,6 +17,7 @@ struct EnumName {
 /// All words of an enumeration, in the order in which help texts show them.
 const std::vector<EnumName<Alignment>>& names_of(Alignment);
 const std::vector<EnumName<Combine>>& names_of(Combine);
+const std::vector<EnumName<VolumeAccess>>& names_of(VolumeAccess);
 const std::vector<EnumName<ProjectionName>>& names_of(ProjectionName);
 const std::vector<EnumName<Pipeline>>& names_of(Pipeline);
 const std::vector<EnumName<Mode>>& names_of(Mode);

@@ -15,6 +15,11 @@
 
 namespace slicelens {
 
+/// Where the voxels are while they are drawn: `automatic` leaves those on disk that render.memory does not
+/// hold; `stream` reads parts of the file as they are needed, which few formats allow; `cache` reads parts of
+/// a copy in bricks, made once (volume/streamed.h).
+enum class VolumeAccess { automatic, memory, stream, cache };
+
 /// Section `volume`. Exactly one of `file` and `phantom` is set.
 struct VolumeSettings {
   std::optional<std::string> file = std::nullopt; ///< as given; relative paths are relative to the scene file
@@ -27,6 +32,8 @@ struct VolumeSettings {
   std::size_t frame = 0;                               ///< of a 4D file
   std::string series;                                  ///< which DICOM series of a folder
   std::optional<std::string> labels = std::nullopt;    ///< label volume: a phantom's name or a file, as given
+  VolumeAccess access = VolumeAccess::automatic;
+  std::optional<std::string> cache = std::nullopt; ///< file of the copy in bricks; none: in the user's cache
 };
 
 /// Section `transfer`. At most one of `preset`, `file` and `points`; none: automatic from the histogram.
@@ -127,6 +134,8 @@ struct RenderSettings {
   std::array<std::size_t, 3> tiles{1, 1, 1}; ///< textures that the volume is held in, on each axis
   std::size_t levels = 1; ///< of a mip pyramid that a lens reads (1: full resolution only); with footprint
                           ///< `mip` the most it may have (1: as many as the picture needs)
+  std::optional<std::size_t> memory = std::nullopt; ///< MiB of textures that a volume may take; none: 1024
+  std::size_t brick = 32; ///< voxels along the edge of a brick, where the volume takes more
   std::optional<std::size_t> axis_texels =
       std::nullopt; ///< of each table of `axis`; none: one for each voxel
   AxisFilter axis_filter = AxisFilter::linear;

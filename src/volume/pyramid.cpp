@@ -1,6 +1,7 @@
 #include "volume/pyramid.h"
 
 #include "core/errors.h"
+#include "volume/streamed.h"
 
 #include <tbb/parallel_for.h>
 
@@ -96,6 +97,10 @@ Volume crop(const Volume& volume, const std::array<std::size_t, 3>& first,
   result.mean = volume.mean;
   result.format = volume.format;
   result.voxels.resize(voxel_bytes(result));
+  if (is_streamed(volume)) {
+    volume.streamed->stream->read({first, size}, result.voxels);
+    return result;
+  }
   const std::size_t voxel = size_of(volume.type) * static_cast<std::size_t>(volume.components);
   const std::size_t row = size[0] * voxel;
   std::byte* out = result.voxels.data();

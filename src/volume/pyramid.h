@@ -21,8 +21,9 @@ std::array<std::size_t, 3> level_dims(const std::array<std::size_t, 3>& dims, st
 /// UsageError for several components.
 Volume half_size(const Volume& volume);
 
-/// The voxels [first, first + size), in their place in the world; min and max stay the whole volume's. Throws
-/// UsageError for a box that is empty or reaches beyond the volume.
+/// The voxels [first, first + size), in their place in the world; min and max stay the whole volume's. Of a
+/// streamed volume they are read from its file. Throws UsageError for a box that is empty or reaches beyond
+/// the volume, and what VoxelStream::read throws.
 Volume crop(const Volume& volume, const std::array<std::size_t, 3>& first,
             const std::array<std::size_t, 3>& size);
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ std::string name_of(ScalarType type);
 /// The type of a name as name_of gives it, or one of the usual synonyms (uchar, short, ushort, int, float,
 /// double …). Throws UsageError naming the nearest one.
 ScalarType scalar_type_from_name(const std::string& name);
+
+struct StreamedVoxels;
 
 /// Colours of voxels, in the order of the voxels.
 struct VoxelColors {
@@ -48,7 +51,9 @@ struct Volume {
   std::size_t non_finite = 0;    ///< scalars that are NaN or infinite
   std::size_t frames = 1;        ///< frames in the file this one was chosen from
   std::string format;            ///< "NRRD", "MetaImage", "NIfTI", "DICOM", "phantom" …
-  VoxelColors colors;            ///< of a volume of colours, whose voxels are luminances (with_luminance)
+  /// Voxels that stay in their file (volume/streamed.h); `voxels` is empty then, the statistics are known.
+  std::shared_ptr<const StreamedVoxels> streamed;
+  VoxelColors colors; ///< of a volume of colours, whose voxels are luminances (with_luminance)
 };
 
 /// Number of voxels. Throws LimitError on overflow.
