@@ -7,6 +7,7 @@
 #include "scene/names.h"
 #include "volume/missing.h"
 #include "volume/pyramid.h"
+#include "volume/streamed.h"
 #include "warp/object_bounds.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -159,7 +160,7 @@ void prepare_effects(PreparedScene& prepared) {
 /// as the smallest one.
 void fill_missing(PreparedScene& prepared) {
   Volume& volume = prepared.volume;
-  if (volume.non_finite == 0)
+  if (volume.non_finite == 0 || is_streamed(volume)) // of those on disk whoever loads a box replaces them
     return;
   const bool maximum = prepared.scene.render.mode == Mode::mip;
   const auto empty = maximum ? std::nullopt : empty_value(prepared.transfer, volume.min, volume.max);
@@ -170,6 +171,13 @@ void fill_missing(PreparedScene& prepared) {
 void prepare_pyramid(PreparedScene& prepared) {
   const std::size_t count = prepared.levels - 1;
   prepared.pyramid.resize(std::min(prepared.pyramid.size(), count));
+  if (is_streamed(prepared.volume)) {
+    const std::vector<Volume>& coarser = prepared.volume.streamed->coarser;
+    if (coarser.size() < count)
+      require_voxels(prepared.volume, "a pyramid of " + std::to_string(prepared.levels) + " levels");
+    prepared.pyramid.assign(coarser.begin(), coarser.begin() + static_cast<std::ptrdiff_t>(count));
+    return;
+  }
   while (prepared.pyramid.size() < count)
     prepared.pyramid.push_back(
         half_size(prepared.pyramid.empty() ? prepared.volume : prepared.pyramid.back()));
@@ -182,7 +190,10 @@ void prepare_cells(PreparedScene& prepared) {
   if (render.skip == Skip::none)
     return;
   const std::size_t reach = render.filter == Filter::cubic ? 2 : 1;
-  if (!prepared.cells || prepared.cells->reach != reach)
+  const bool on_disk = is_streamed(prepared.volume); // known with the larger reach, which holds for both
+  if (on_disk && !prepared.cells)
+    prepared.cells = prepared.volume.streamed->cells;
+  if (!on_disk && (!prepared.cells || prepared.cells->reach != reach))
     prepared.cells = cell_ranges(prepared.volume, reach);
   prepared.skipping = skipping_of(prepared);
 }

@@ -185,7 +185,7 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
                    std::future<std::string> hashing) {
   if (!hashing.valid() && (sha256 != nullptr || !input.expected_sha256.empty()))
     hashing = start_hash(input);
-  Volume volume = load_volume(input.scene.volume, input.folders, progress);
+  Volume volume = load_volume(input.scene.volume, input.folders, progress, budget_of(input.scene));
   const std::string hash = hashing.valid() ? hashing.get() : "";
   require_hash(input, hash);
   if (sha256 != nullptr)
@@ -230,7 +230,7 @@ void load_again(PreparedScene& prepared, const SceneInput& input, const Progress
     const bool known = i <= had;
     const Scene before = known ? scene_of_volume(one.scene, 0) : Scene{};
     if (!known || text_of(before.volume, &Scene::volume) != text_of(now.volume, &Scene::volume))
-      set_volume(one, load_volume(now.volume, input.folders, progress));
+      set_volume(one, load_volume(now.volume, input.folders, progress, budget_of(scene)));
     TransferSettings& transfer = i == 0 ? scene.transfer : scene.others[i - 1].transfer;
     load_transfer_file(transfer, one.volume, input.folders, progress);
     now.transfer = transfer;

@@ -274,7 +274,6 @@ Volume header_of(itk::ImageIOBase& io, const fs::path& path, bool components_are
   volume.components = components_are_frames ? 1 : static_cast<int>(components);
   volume.type = scalar_type_of(path, io.GetComponentType());
   read_geometry(io, path, volume);
-  check_memory(path, voxel_bytes(volume));
   return volume;
 }
 
