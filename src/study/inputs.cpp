@@ -8,6 +8,7 @@
 #include "scene/load.h"
 #include "scene/load_labels.h"
 #include "scene/load_warps.h"
+#include "scene/names.h"
 #include "scene/scene_json.h"
 
 #include <algorithm>
@@ -202,6 +203,19 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
     load_transfer_file(scene.others[i].transfer, others[i].volume, input.folders, {});
   return prepare(std::move(scene), std::move(volume), std::move(transfer), std::move(others),
                  std::move(labels));
+}
+
+void hold_voxels(SceneInput& input, const std::string& what) {
+  const auto hold = [&](VolumeSettings& volume) {
+    if (volume.access == VolumeAccess::stream || volume.access == VolumeAccess::cache)
+      throw UsageError(what + " needs all voxels at once, which volume.access '" + word(volume.access) +
+                       "' does not hold; set volume.access to memory");
+    volume.access = VolumeAccess::memory;
+    volume.cache.reset();
+  };
+  hold(input.scene.volume);
+  for (auto& other : input.scene.others)
+    hold(other.volume);
 }
 
 std::size_t checked_volume(const Scene& scene, int index) {

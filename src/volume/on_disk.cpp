@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "core/text.h"
+#include "volume/dicom_slices.h"
 #include "volume/file_stamp.h"
 #include "volume/header_scan.h"
 #include "volume/nifti_header.h"
@@ -86,6 +87,10 @@ std::optional<VolumeOutline> outline_of(const VolumeSource& source, const Progre
     outline.volume = nifti_outline(source.file);
   } else if (input.kind == InputFormat::vtk) {
     scan_vtk(source.file, outline.volume);
+  } else if (input.kind == InputFormat::dicom) {
+    const DicomStack stack = dicom_stack(input.files, input.named, source, saying_once(progress));
+    outline.volume = dicom_outline(stack, {});
+    outline.streams = is_sliced(stack) && outline.volume.components == 1;
   } else {
     return std::nullopt;
   }
@@ -93,9 +98,41 @@ std::optional<VolumeOutline> outline_of(const VolumeSource& source, const Progre
   return outline;
 }
 
+namespace {
+
+std::optional<Volume> stream_dicom(const Input& input, const VolumeSource& source, const Progress& caller) {
+  const Progress progress = saying_once(caller);
+  const DicomStack stack = dicom_stack(input.files, input.named, source, progress);
+  std::vector<fs::path> files;
+  for (const DicomFile& slice : stack.slices)
+    files.push_back(slice.file);
+  const std::string identity = stamps_text(files) + choice_text(source);
+  if (!is_sliced(stack))
+    return std::nullopt;
+  Volume volume = dicom_outline(stack, progress);
+  check_frame(volume, source);
+  if (source.component)
+    check_component(volume, *source.component);
+  if (volume.components > 1)
+    return std::nullopt;
+  const std::optional<KeptScan> kept = kept_scan(identity, volume.dims, {});
+  volume.type = kept ? kept->type : dicom_type(stack, volume.components, progress);
+  apply_spacing(volume, source);
+  auto stream = dicom_stream(stack, volume.type);
+  // One thread: slices are decoded one at a time, and what the decoder prints must not meet what others do.
+  return with_scan(std::move(volume), std::move(stream), "stream: " + source.file.string(), identity, 1,
+                   progress);
+}
+
+} // namespace
+
 std::optional<Volume> stream_volume(const VolumeSource& source, const Progress& progress) {
   report_progress(progress, "load", 0);
   const Input input = resolve(source);
+  if (input.kind == InputFormat::dicom) {
+    refuse_raw_keys(source);
+    return stream_dicom(input, source, progress);
+  }
   if (!holds_raw(input.kind))
     return std::nullopt;
   if (input.kind != InputFormat::raw)

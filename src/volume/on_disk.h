@@ -16,15 +16,15 @@ struct VolumeOutline {
   bool streams = false; ///< whether stream_volume leaves its voxels in the files
 };
 
-/// Nothing for formats whose headers are not read apart from their voxels (VTI, images). Of DICOM the type is
-/// a guess. Throws as read_volume.
+/// Nothing for formats whose headers are not read apart from their voxels (VTI, images). The type of DICOM is
+/// that of the first slice. Throws as read_volume.
 std::optional<VolumeOutline> outline_of(const VolumeSource& source, const Progress& progress = {});
 
 /// read_volume without holding the voxels: raw files, NRRD and MetaImage with raw voxels in one file or
-/// several, of one component or with the one that source.component names. Nothing for other
-/// volumes. Reads all of them once, a few MiB at a time, for what is to be known of them as a whole; keeps
-/// that in the user's cache folder ($XDG_CACHE_HOME/slicelens or ~/.cache/slicelens), where the next call
-/// finds it as long as the files have the same size and time.
+/// several, of one component or with the one that source.component names, and DICOM of one component whose
+/// slices are files of their own. Nothing for other volumes. Reads all of them once, a few MiB at a time, for
+/// what is to be known of them as a whole; keeps that in the user's cache folder ($XDG_CACHE_HOME/slicelens
+/// or ~/.cache/slicelens), where the next call finds it as long as the files have the same size and time.
 ///
 /// Throws as read_volume, but for volumes larger than the memory; what the stream's reads throw.
 std::optional<Volume> stream_volume(const VolumeSource& source, const Progress& progress = {});
