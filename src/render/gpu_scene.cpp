@@ -82,10 +82,14 @@ std::size_t upload_segments(const gl::Functions& gl, const PreparedScene& prepar
   return table.rgba.size() * sizeof(float);
 }
 
-/// One texture, or those of the brick plan.
+/// One texture, those of the brick plan, or a pool that is filled while it is drawn.
 void upload_all(const gl::Functions& gl, const PreparedScene& prepared, const TexelCoding& coding,
                 GpuScene& scene, const Progress& progress) {
   const RenderSettings& render = prepared.scene.render;
+  if (is_paged(prepared)) {
+    scene.pool = std::make_unique<BrickPool>(gl, prepared);
+    return;
+  }
   if (!is_bricked(prepared)) {
     scene.volume = upload_volume(gl, prepared.volume, render.filter, coding, progress);
     return;
@@ -138,9 +142,15 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
   const std::vector<WarpMap> maps = drawn_maps(prepared);
   scene.grids = upload_grids(gl, maps);
   if (prepared.scene.render.classification == Classification::pre) {
-    scene.volume = upload_classified(gl, prepared, progress);
     scene.texture = "rgba8, classified";
-    scene.bytes = voxel_count(volume) * classified_voxel_bytes + grid_bytes(maps);
+    scene.whole_bytes = voxel_count(volume) * classified_voxel_bytes;
+    if (is_paged(prepared)) {
+      scene.pool = std::make_unique<BrickPool>(gl, prepared);
+      scene.bytes = scene.pool->counts().texture_bytes + grid_bytes(maps);
+      return scene;
+    }
+    scene.volume = upload_classified(gl, prepared, progress);
+    scene.bytes = scene.whole_bytes + grid_bytes(maps);
     return scene;
   }
   const TexelCoding coding = texel_coding(prepared);
@@ -153,8 +163,9 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
   const std::size_t transfer_bytes =
       scene.transfer_texels * (prepared.scene.render.transfer_texture == TransferTexture::rgba8 ? 4 : 16);
   scene.whole_bytes = voxel_count(volume) * coding.bytes + transfer_bytes;
-  scene.bytes =
-      is_bricked(prepared) ? brick_voxels(scene.plan) * coding.bytes + transfer_bytes : scene.whole_bytes;
+  scene.bytes = scene.pool             ? scene.pool->counts().texture_bytes + transfer_bytes
+                : is_bricked(prepared) ? brick_voxels(scene.plan) * coding.bytes + transfer_bytes
+                                       : scene.whole_bytes;
   scene.bytes += scene.gradients.bytes;
   scene.bytes += grid_bytes(maps);
   if (!prepared.scene.transfer.shapes.empty())

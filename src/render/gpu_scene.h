@@ -3,11 +3,14 @@
 
 #include "gl/texture.h"
 #include "render/axis_textures.h"
+#include "render/brick_pool.h"
 #include "render/bricks.h"
 #include "render/gradient_texture.h"
 #include "render/label_textures.h"
 #include "render/prepare.h"
 #include "render/texels.h"
+
+#include <memory>
 
 namespace slicelens {
 
@@ -28,6 +31,7 @@ struct GpuScene {
   std::size_t whole_bytes = 0; ///< of the volume in one texture at full resolution, and the transfer function
   BrickPlan plan;              ///< where the volume is bricked (render.tiles, render.levels)
   std::vector<gl::Texture> bricks; ///< of plan.bricks; `volume` is empty then
+  std::unique_ptr<BrickPool> pool; ///< where the volume is paged (pages.h); `volume` is empty then
   std::size_t transfer_texels = 0;
   GradientTexture gradients;      ///< for shading
   AxisTextures axis;              ///< empty but under pipeline `axis`
