@@ -116,6 +116,7 @@ PoolCounts BrickPool::counts() const {
   counts.needed = static_cast<std::size_t>(
       std::count_if(contents_.begin(), contents_.end(), [](const PageContent& page) { return page.needed; }));
   counts.capacity = slots_.size();
+  counts.parts = static_cast<std::size_t>(calls_);
   counts.loads = loads_;
   counts.read_bytes = read_bytes_;
   const std::size_t edge = brick_edge(grid_);

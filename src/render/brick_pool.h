@@ -20,6 +20,7 @@ struct PoolCounts {
   std::size_t pages = 0;         ///< of all levels of the volume
   std::size_t needed = 0;        ///< those whose voxels can matter under this transfer function
   std::size_t capacity = 0;      ///< bricks that it holds at once
+  std::size_t parts = 0;         ///< times that pages were asked for
   std::size_t loads = 0;         ///< bricks loaded, one that was dropped and came back twice
   std::uint64_t read_bytes = 0;  ///< taken from the volume's file
   std::size_t texture_bytes = 0; ///< of the pool and its table

@@ -3,7 +3,6 @@
 #include "render/pages.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace slicelens {
 
@@ -60,6 +59,13 @@ std::vector<Wanted> wanted_in(std::span<const PagedVolume> volumes, std::span<co
   return wanted;
 }
 
+/// The parts of a band; none where the pages of one entry, `needed`, are more than a pool holds.
+struct Parts {
+  std::vector<PagedPart> parts;
+  std::size_t needed = 0;
+  std::size_t capacity = 0;
+};
+
 /// The pages of a part that is being gathered.
 class Gathering {
 public:
@@ -75,6 +81,18 @@ public:
     counts_ = std::move(counts);
     pages_.insert(pages_.end(), more.begin(), more.end());
     return true;
+  }
+  /// What take() refused: of the volume that needs most beyond its pool.
+  Parts too_many(std::span<const Wanted> more) const {
+    std::vector<std::size_t> counts = counts_;
+    for (const Wanted& page : more)
+      ++counts[page.volume];
+    Parts result;
+    for (std::size_t v = 0; v < counts.size(); ++v) {
+      if (counts[v] > volumes_[v].capacity && counts[v] > result.needed)
+        result = {{}, counts[v], volumes_[v].capacity};
+    }
+    return result;
   }
   /// Drops what ended before an entry.
   void drop_before(std::size_t entry) {
@@ -98,10 +116,9 @@ private:
   std::vector<Wanted> pages_;
 };
 
-/// The parts of a band, or nothing where one entry needs too much.
-std::optional<std::vector<PagedPart>> parts_of(std::span<const PagedVolume> volumes,
-                                               std::span<const Wanted> wanted, std::size_t entries) {
-  std::vector<PagedPart> parts;
+Parts parts_of(std::span<const PagedVolume> volumes, std::span<const Wanted> wanted, std::size_t entries) {
+  Parts result;
+  std::vector<PagedPart>& parts = result.parts;
   Gathering gathering(volumes);
   std::size_t begin = 0;
   std::size_t next = 0;
@@ -116,12 +133,12 @@ std::optional<std::vector<PagedPart>> parts_of(std::span<const PagedVolume> volu
       begin = entry;
       gathering.drop_before(entry);
       if (!gathering.take(more))
-        return std::nullopt;
+        return gathering.too_many(more);
     }
     next = end;
   }
   parts.push_back(gathering.part(begin, entries));
-  return parts;
+  return result;
 }
 
 constexpr int fewest_rows = 8;
@@ -137,16 +154,17 @@ std::vector<PagedBand> paged_bands(std::span<const PagedVolume> volumes,
   while (!open.empty()) {
     PagedBand band = std::move(open.back());
     open.pop_back();
-    if (auto parts = parts_of(volumes, wanted_in(volumes, entries, band.bottom, band.top), entries.size())) {
-      band.parts = std::move(*parts);
+    Parts parts = parts_of(volumes, wanted_in(volumes, entries, band.bottom, band.top), entries.size());
+    if (!parts.parts.empty()) {
+      band.parts = std::move(parts.parts);
       done.push_back(std::move(band));
       continue;
     }
     const int rows = band.top - band.bottom;
     if (rows <= fewest_rows)
-      throw LimitError("a single slice in " + std::to_string(fewest_rows) +
-                       " rows of the picture needs more bricks than render.memory holds; raise it, or make "
-                       "render.brick smaller");
+      throw LimitError("a single slice in " + std::to_string(rows) + " rows of the picture needs " +
+                       std::to_string(parts.needed) + " bricks at once and render.memory holds " +
+                       std::to_string(parts.capacity) + "; raise it, or make render.brick smaller");
     const int middle = band.bottom + rows / 2;
     open.push_back({middle, band.top, {}});
     open.push_back({band.bottom, middle, {}});

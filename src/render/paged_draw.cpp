@@ -36,6 +36,17 @@ bool has_pools(const GpuScene& scene) {
 
 } // namespace
 
+std::vector<PoolCounts> pool_counts(const GpuScene& scene) {
+  std::vector<PoolCounts> counts;
+  if (scene.pool)
+    counts.push_back(scene.pool->counts());
+  for (const GpuScene& other : scene.others) {
+    if (other.pool)
+      counts.push_back(other.pool->counts());
+  }
+  return counts;
+}
+
 void draw_in_parts(const gl::Functions& gl, const PreparedScene& prepared, const GpuScene& scene,
                    std::span<const SliceNumbers> numbers, const gl::Target& target, Splitting splitting,
                    const std::string& what, const std::function<void(std::size_t, std::size_t)>& draw) {

@@ -11,6 +11,9 @@
 
 namespace slicelens {
 
+/// Of the pools of a scene, in the order of its volumes.
+std::vector<PoolCounts> pool_counts(const GpuScene& scene);
+
 /// How a drawing may be cut where the pools hold too few bricks for all of it.
 enum class Splitting {
   everywhere, ///< along the view, and into bands of the picture
