@@ -1,8 +1,7 @@
 #include "render/pass_tiles.h"
 
 #include "render/occupancy.h"
-#include "render/stack_geometry.h"
-#include "warp/object_bounds.h"
+#include "render/screen_cover.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,68 +10,6 @@
 namespace slicelens {
 
 namespace {
-
-glm::dvec3 corner(const glm::dvec3& low, const glm::dvec3& high, int k) {
-  return glm::mix(low, high, glm::dvec3(k & 1, k >> 1 & 1, k >> 2 & 1));
-}
-
-/// Whether some half-space leaves nothing of a box.
-bool is_cut_away(const std::vector<Plane>& planes, const glm::dvec3& low, const glm::dvec3& high) {
-  return std::any_of(planes.begin(), planes.end(), [&](const Plane& plane) {
-    const glm::dvec3 farthest = glm::mix(low, high, glm::greaterThan(plane.normal, glm::dvec3(0)));
-    return signed_value(plane, farthest) < -1e-9 * glm::length(plane.normal);
-  });
-}
-
-/// What a box of texture coordinates of the displayed volume covers: pixels from the bottom left corner, and
-/// depths in slice distances from the plane between planes −1 and 0.
-struct Cover {
-  glm::dvec2 low{std::numeric_limits<double>::infinity()};
-  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
-  double near = std::numeric_limits<double>::infinity();
-  double far = -std::numeric_limits<double>::infinity();
-};
-
-class Projector {
-public:
-  explicit Projector(const PreparedScene& prepared)
-      : clip_from_texture_(slicelens::clip_from_texture(prepared)),
-        size_(prepared.view.width, prepared.view.height) {
-    const View& view = prepared.view;
-    const glm::dmat4& world_from_texture = prepared.box.world_from_texture;
-    const glm::dvec3 slope = glm::transpose(glm::dmat3(world_from_texture)) * view.forward;
-    const double offset = depth(view, glm::dvec3(world_from_texture[3])) - depth(view, center(prepared.box));
-    distance_ = glm::dvec4(slope, offset) / prepared.spacing;
-    eye_ = view.projection == Projection::perspective ? -depth(view, center(prepared.box)) / prepared.spacing
-                                                      : -std::numeric_limits<double>::infinity();
-  }
-
-  Cover cover(const glm::dvec3& low, const glm::dvec3& high) const {
-    Cover cover;
-    for (int k = 0; k < 8; ++k) {
-      const glm::dvec4 point(corner(low, high, k), 1);
-      const double distance = glm::dot(distance_, point);
-      cover.near = std::min(cover.near, distance);
-      cover.far = std::max(cover.far, distance);
-      const glm::dvec4 clip = clip_from_texture_ * point;
-      const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size_;
-      cover.low = glm::min(cover.low, pixel);
-      cover.high = glm::max(cover.high, pixel);
-    }
-    // At the eye and behind it corners say nothing about what is seen.
-    if (cover.near <= eye_ + 1e-3) {
-      cover.low = glm::dvec2(0);
-      cover.high = size_;
-    }
-    return cover;
-  }
-
-private:
-  glm::dmat4 clip_from_texture_;
-  glm::dvec2 size_;
-  glm::dvec4 distance_{0};
-  double eye_ = 0;
-};
 
 class TileMarker {
 public:
@@ -88,7 +25,7 @@ public:
   }
 
   /// A thousandth of a slice distance and a hundredth of a pixel allow for the shader's rounding.
-  void mark(const Cover& cover) {
+  void mark(const ScreenCover& cover) {
     const auto first = std::max(first_, number(std::ceil(cover.near - 0.5 - jitter_ - 1e-3)));
     const auto last = std::min(last_, number(std::floor(cover.far - 0.5 + 1e-3)));
     const int left = tile(cover.low.x - 0.01, tiles_.columns);
@@ -132,22 +69,6 @@ private:
   double jitter_;
 };
 
-/// Where the data of a cell are shown, texture coordinates of the displayed volume; nothing where only the
-/// whole displayed volume is known to hold them.
-std::optional<Bounds> shown_cell(const PreparedScene& prepared, const std::vector<WarpMap>& maps,
-                                 const CellBox& cell) {
-  if (maps.empty())
-    return Bounds{cell.low, cell.high};
-  Bounds bounds{box_from_texture(prepared.space, cell.low), box_from_texture(prepared.space, cell.high)};
-  for (const WarpMap& map : maps) {
-    const auto shown = shown_bounds(map, bounds);
-    if (!shown)
-      return std::nullopt;
-    bounds = *shown;
-  }
-  return Bounds{texture_from_box(prepared.space, bounds.low), texture_from_box(prepared.space, bounds.high)};
-}
-
 } // namespace
 
 std::int64_t pass_of(std::int64_t plane, std::size_t planes_per_pass) {
@@ -156,7 +77,7 @@ std::int64_t pass_of(std::int64_t plane, std::size_t planes_per_pass) {
 }
 
 PassTiles tiles_of_passes(const PreparedScene& prepared, std::int64_t first, std::int64_t last) {
-  const Projector projector(prepared);
+  const ScreenProjector projector(prepared);
   const std::vector<WarpMap> maps = drawn_maps(prepared);
   const Occupancy occupancy = occupancy_of(prepared);
   TileMarker marker(prepared, first, last);
@@ -166,7 +87,7 @@ PassTiles tiles_of_passes(const PreparedScene& prepared, std::int64_t first, std
     const CellBox cell = cell_box(prepared, i);
     if (is_cut_away(prepared.data_clip, cell.low, cell.high))
       continue;
-    const auto shown = shown_cell(prepared, maps, cell);
+    const auto shown = shown_data(prepared, maps, {cell.low, cell.high});
     if (!shown) {
       marker.mark(projector.cover(prepared.object_low, prepared.object_high));
       break;

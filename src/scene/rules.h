@@ -45,7 +45,4 @@ void validate_access(const Scene& scene);
 /// disk cannot give; nothing where it can be drawn box by box.
 std::optional<std::string> what_needs_voxels(const Scene& scene);
 
-/// MiB of render.memory, where it is not given.
-inline constexpr std::size_t default_memory = 1024;
-
 } // namespace slicelens

@@ -8,10 +8,6 @@ std::optional<std::string> what_needs_voxels(const Scene& scene) {
   const RenderSettings& render = scene.render;
   if (render.pipeline == Pipeline::reference || render.pipeline == Pipeline::fixed_function)
     return "render.pipeline '" + word(render.pipeline) + "'";
-  if (render.classification == Classification::pre)
-    return "render.classification 'pre'";
-  if (render.mode == Mode::two_level)
-    return "render.mode 'two-level'";
   const bool own_texture =
       render.gradient == Gradient::prefiltered || render.gradient == Gradient::precomputed;
   if (uses_gradients(scene) && own_texture)

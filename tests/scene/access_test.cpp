@@ -147,8 +147,7 @@ TEST_CASE("the budget is render.memory, but for scenes that need all voxels") {
   CHECK(budget(R"("levels":3)").levels == 3);
   CHECK(budget(R"("volume_texture":"r8")").texture == VolumeTexture::r8);
   const std::uintmax_t unlimited = VoxelBudget().bytes;
-  for (const char* render : {R"("pipeline":"reference")", R"("classification":"pre","shading":"none")",
-                             R"("shading":"phong","gradient":"precomputed")"}) {
+  for (const char* render : {R"("pipeline":"reference")", R"("shading":"phong","gradient":"precomputed")"}) {
     CAPTURE(render);
     CHECK(budget(render).bytes == unlimited);
   }
@@ -161,7 +160,7 @@ TEST_CASE("what volumes on disk cannot do is refused by name") {
   CHECK(refusal(R"("file":"a.nrrd","cache":"a.bricks")").empty());
   CHECK(contains(refusal(stream, R"(,"render":{"pipeline":"reference"})"),
                  "render.pipeline 'reference' needs all voxels at once"));
-  CHECK(contains(refusal(cache, R"(,"render":{"classification":"pre"})"), "set volume.access to memory"));
+  CHECK(refusal(cache, R"(,"render":{"classification":"pre"})").empty());
   CHECK(contains(refusal(cache, R"(,"render":{"shading":"phong","gradient":"prefiltered"})"),
                  "render.gradient 'prefiltered'"));
   CHECK(contains(refusal(stream, R"(,"render":{"levels":2})"), "set volume.access to cache or memory"));
