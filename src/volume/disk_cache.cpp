@@ -89,7 +89,8 @@ std::optional<BrickHeader> header_at(const Place& place, const Progress& progres
 
 /// The voxels to be copied, from the files.
 Volume read_source(const VolumeSource& source, const Progress& progress) {
-  if (std::optional<Volume> streamed = stream_volume(source, progress))
+  if (std::optional<Volume> streamed =
+          stream_volume(source, progress, ScanKeeping::drop)) // the copy keeps it
     return std::move(*streamed);
   return read_volume(source, progress);
 }
