@@ -4,6 +4,7 @@
 #include "core/progress.h"
 #include "gl/context.h"
 #include "image/image.h"
+#include "render/brick_pool.h"
 #include "render/prepare.h"
 
 #include <optional>
