@@ -7,6 +7,7 @@
 #include "render/texels.h"
 #include "scene/names.h"
 #include "volume/pyramid.h"
+#include "volume/streamed.h"
 
 #include <tbb/parallel_for.h>
 
@@ -50,6 +51,8 @@ std::size_t texture_budget(const RenderSettings& render) {
 bool is_paged(const PreparedScene& prepared) {
   if (!is_textured(prepared))
     return false;
+  if (is_streamed(prepared.volume))
+    return true;
   const auto& dims = prepared.volume.dims;
   return std::max({dims[0], dims[1], dims[2]}) > most_texture_voxels ||
          voxel_count(prepared.volume) > texture_budget(prepared.scene.render) / texel_bytes(prepared);
@@ -63,6 +66,10 @@ void refuse_unpaged_settings(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
   const auto refuse = [&](const std::string& what, const std::string& instead) {
     const auto& dims = prepared.volume.dims;
+    if (is_streamed(prepared.volume)) {
+      throw UsageError("the volume's voxels stay on disk (" + prepared.volume.streamed->where + "), and " +
+                       what + " in one texture; " + instead + ", with volume.access set to memory");
+    }
     throw UsageError("a volume of " + std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " +
                      std::to_string(dims[2]) + " voxels does not fit render.memory (" +
                      std::to_string(render.memory.value_or(default_memory)) + " MiB, edges of at most " +

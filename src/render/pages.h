@@ -14,17 +14,14 @@
 
 namespace slicelens {
 
-/// Where render.memory is not given, MiB: the largest texture that software drivers make.
-inline constexpr std::size_t default_memory = 1024;
-
 /// Voxels along an edge from which on no texture is tried: what drivers of today take at least.
 inline constexpr std::size_t most_texture_voxels = 2048;
 
 /// render.memory in bytes.
 std::size_t texture_budget(const RenderSettings& render);
 
-/// Whether the volume's texture would be larger than render.memory or most_texture_voxels, so that it is
-/// drawn through a pool of bricks. Not for pipelines without textures (`reference`).
+/// Whether the volume's texture would be larger than render.memory or most_texture_voxels, or its voxels stay
+/// on disk, so that it is drawn through a pool of bricks. Not for pipelines without textures (`reference`).
 bool is_paged(const PreparedScene& prepared);
 
 /// Whether one of the scene's volumes is.

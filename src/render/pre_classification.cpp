@@ -1,6 +1,7 @@
 #include "render/pre_classification.h"
 
 #include "render/gpu_scene.h"
+#include "volume/streamed.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -137,6 +138,7 @@ int texels(std::size_t n) { return static_cast<int>(std::min<std::size_t>(n, INT
 } // namespace
 
 void classify_voxels(const PreparedScene& prepared, std::size_t first, std::span<std::byte> out) {
+  require_voxels(prepared.volume, "render.classification 'pre' in one texture");
   with_classifier(prepared, [&](const auto& classifier) { classifier(prepared.volume, first, out); });
 }
 

@@ -161,7 +161,7 @@ void prepare_effects(PreparedScene& prepared) {
 /// as the smallest one.
 void fill_missing(PreparedScene& prepared) {
   Volume& volume = prepared.volume;
-  if (volume.non_finite == 0)
+  if (volume.non_finite == 0 || is_streamed(volume)) // of those on disk whoever loads a box replaces them
     return;
   const bool maximum = prepared.scene.render.mode == Mode::mip;
   const auto empty = maximum ? std::nullopt : empty_value(prepared.transfer, volume.min, volume.max);
@@ -195,9 +195,10 @@ void prepare_cells(PreparedScene& prepared) {
   if (render.skip == Skip::none && !is_paged(prepared))
     return;
   const std::size_t reach = render.filter == Filter::cubic ? 2 : 1;
-  if (is_streamed(prepared.volume))
+  const bool on_disk = is_streamed(prepared.volume); // known with the larger reach, which holds for both
+  if (on_disk && !prepared.cells)
     prepared.cells = prepared.volume.streamed->cells;
-  else if (!prepared.cells || prepared.cells->reach != reach)
+  if (!on_disk && (!prepared.cells || prepared.cells->reach != reach))
     prepared.cells = cell_ranges(prepared.volume, reach);
   if (render.skip != Skip::none)
     prepared.skipping = skipping_of(prepared);

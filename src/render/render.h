@@ -8,6 +8,7 @@
 #include "render/prepare.h"
 
 #include <optional>
+#include <vector>
 
 namespace slicelens {
 
