@@ -267,6 +267,7 @@ std::vector<PageNeed> page_needs(const PreparedScene& prepared, const PageGrid& 
   const glm::dvec2 margin = slice_margins(prepared);
   const bool anywhere = looks_anywhere(prepared);
   const bool radial = counts_from_eye(prepared);
+  const bool lenses_only = !maps.empty() && prepared.lenses.size() == maps.size();
   // Ends of segments lie beyond planes that cut the data.
   const bool cut = !anywhere && prepared.scene.render.classification != Classification::preintegrated;
   const Bounds all{prepared.object_low, prepared.object_high};
@@ -281,8 +282,13 @@ std::vector<PageNeed> page_needs(const PreparedScene& prepared, const PageGrid& 
     if (cut && is_cut_away(prepared.object_clip, shown.low, shown.high))
       continue;
     ScreenCover cover = projector.cover(shown.low, shown.high);
-    if (radial)
+    if (radial) {
       cover_from_eye(prepared, shown, cover);
+    } else if (lenses_only) { // LaMar's leaves the planes across the view where they are
+      const ScreenCover own = projector.cover(data.low, data.high);
+      cover.near = own.near;
+      cover.far = own.far;
+    }
     const double height = prepared.view.height;
     if (!anywhere && (cover.high.x < -1 || cover.low.x > prepared.view.width + 1 || cover.high.y < -1 ||
                       cover.low.y > height + 1))
