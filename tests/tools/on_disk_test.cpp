@@ -87,7 +87,9 @@ TEST_CASE("a disk that fills while a copy in bricks is written ends with 1 and k
       outcome = packed.info(file);
     }
     check_refused(outcome, "the copy in bricks cannot be written: File too large");
-    CHECK(packed.place.entries() == std::vector<std::string>{"a.nrrd", "b.mha"});
+    CHECK(packed.place.entries() == std::vector<std::string>{"a.nrrd", "b.mha", "cache"});
+    for (const auto& entry : fs::recursive_directory_iterator(packed.place / "cache"))
+      CHECK((entry.is_directory() || entry.path().extension() == ".sha256"));
   }
   CHECK(packed.info().status == 0);
 }
