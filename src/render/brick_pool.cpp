@@ -1,6 +1,7 @@
 #include "render/brick_pool.h"
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "render/brick_filling.h"
 #include "render/gpu_scene.h"
 #include "volume/streamed.h"
@@ -127,6 +128,7 @@ PoolCounts BrickPool::counts() const {
   counts.capacity = slots_.size();
   counts.parts = static_cast<std::size_t>(calls_);
   counts.loads = loads_;
+  counts.seconds = seconds_;
   counts.read_bytes = read_bytes_;
   const std::size_t edge = brick_edge(grid_);
   counts.texture_bytes = slots_.size() * edge * edge * edge * (texel_bytes_ + (labels_ ? 1 : 0)) +
@@ -242,6 +244,7 @@ void BrickPool::load(const PreparedScene& prepared, std::span<const std::uint32_
 }
 
 void BrickPool::require(const PreparedScene& prepared, std::span<const std::uint32_t> pages) {
+  const Stopwatch watch;
   const std::vector<std::uint32_t> slots = assign(pages);
   try {
     load(prepared, slots);
@@ -252,14 +255,15 @@ void BrickPool::require(const PreparedScene& prepared, std::span<const std::uint
     }
     throw;
   }
-  if (!table_changed_)
-    return;
-  gl::TextureSpec spec;
-  spec.format = GL_RGBA32F;
-  const auto size = [&](std::size_t axis) { return static_cast<int>(table_size_[axis]); };
-  gl::update_texture_3d(*gl_, table_, spec, {0, 0, 0}, {size(0), size(1), size(2)},
-                        std::as_bytes(std::span(entries_)));
-  table_changed_ = false;
+  if (table_changed_) {
+    gl::TextureSpec spec;
+    spec.format = GL_RGBA32F;
+    const auto size = [&](std::size_t axis) { return static_cast<int>(table_size_[axis]); };
+    gl::update_texture_3d(*gl_, table_, spec, {0, 0, 0}, {size(0), size(1), size(2)},
+                          std::as_bytes(std::span(entries_)));
+    table_changed_ = false;
+  }
+  seconds_ += watch.seconds();
 }
 
 void BrickPool::bind(const gl::Functions& gl, const gl::Uniforms& program, GLenum voxel_unit,
