@@ -1,8 +1,10 @@
 #include "render/pass_tiles.h"
 
 #include "render/occupancy.h"
+#include "render/shown_parts.h"
 #include "render/stack_geometry.h"
-#include "warp/object_bounds.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +80,7 @@ class TileMarker {
 public:
   TileMarker(const PreparedScene& prepared, std::int64_t first, std::int64_t last)
       : per_pass_(prepared.scene.render.planes_per_pass), first_(first), last_(last),
-        jitter_(prepared.scene.render.jitter) {
+        jitter_(prepared.scene.render.jitter), half_(looks_between_samples(prepared.scene.render) ? 0.5 : 0) {
     tiles_.columns = (prepared.view.width + tile_edge - 1) / tile_edge;
     tiles_.rows = (prepared.view.height + tile_edge - 1) / tile_edge;
     tiles_.first_pass = pass_of(first, per_pass_);
@@ -89,8 +91,8 @@ public:
 
   /// A thousandth of a slice distance and a hundredth of a pixel allow for the shader's rounding.
   void mark(const Cover& cover) {
-    const auto first = std::max(first_, number(std::ceil(cover.near - 0.5 - jitter_ - 1e-3)));
-    const auto last = std::min(last_, number(std::floor(cover.far - 0.5 + 1e-3)));
+    const auto first = std::max(first_, number(std::ceil(cover.near - 0.5 - half_ - jitter_ - 1e-3)));
+    const auto last = std::min(last_, number(std::floor(cover.far - 0.5 + half_ + 1e-3)));
     const int left = tile(cover.low.x - 0.01, tiles_.columns);
     const int right = tile(cover.high.x + 0.01, tiles_.columns);
     const int bottom = tile(cover.low.y - 0.01, tiles_.rows);
@@ -130,22 +132,25 @@ private:
   std::int64_t first_;
   std::int64_t last_;
   double jitter_;
+  double half_; ///< the part of a segment before its sample, slice distances
 };
 
-/// Where the data of a cell are shown, texture coordinates of the displayed volume; nothing where only the
-/// whole displayed volume is known to hold them.
-std::optional<Bounds> shown_cell(const PreparedScene& prepared, const std::vector<WarpMap>& maps,
-                                 const CellBox& cell) {
-  if (maps.empty())
-    return Bounds{cell.low, cell.high};
-  Bounds bounds{box_from_texture(prepared.space, cell.low), box_from_texture(prepared.space, cell.high)};
-  for (const WarpMap& map : maps) {
-    const auto shown = shown_bounds(map, bounds);
-    if (!shown)
-      return std::nullopt;
-    bounds = *shown;
-  }
-  return Bounds{texture_from_box(prepared.space, bounds.low), texture_from_box(prepared.space, bounds.high)};
+/// Whether the picture may jump from one value to another without those between: nothing can then be said of
+/// the segment between two samples by the cells that it passes.
+bool may_jump(const PreparedScene& prepared) {
+  const std::vector<WarpMap> maps = drawn_maps(prepared);
+  return std::any_of(maps.begin(), maps.end(), [](const WarpMap& map) { return has_cuts(map); }) ||
+         (prepared.scene.render.pipeline == Pipeline::axis &&
+          prepared.scene.render.axis_filter == AxisFilter::nearest);
+}
+
+/// A cell, for segments with all that its faces on the volume's stand for: ends beyond the volume take the
+/// values of its edge. As much as the volume again is more than half a sample distance looks away from it.
+Bounds with_edge(const CellBox& cell) {
+  const glm::dvec3 zero(0);
+  const glm::dvec3 one(1);
+  return {glm::mix(cell.low, zero - 1.0, glm::equal(cell.low, zero)),
+          glm::mix(cell.high, one + 1.0, glm::equal(cell.high, one))};
 }
 
 } // namespace
@@ -157,22 +162,26 @@ std::int64_t pass_of(std::int64_t plane, std::size_t planes_per_pass) {
 
 PassTiles tiles_of_passes(const PreparedScene& prepared, std::int64_t first, std::int64_t last) {
   const Projector projector(prepared);
-  const std::vector<WarpMap> maps = drawn_maps(prepared);
+  const ShownBounds shown_part = shown_parts(prepared);
   const Occupancy occupancy = occupancy_of(prepared);
-  TileMarker marker(prepared, first, last);
-  for (std::size_t i = 0; i < occupancy.shows.size(); ++i) {
+  // A segment may show what lies beside its sample, also beyond what cuts the sample away.
+  const bool between = looks_between_samples(prepared.scene.render);
+  std::vector<std::optional<Bounds>> shown(occupancy.shows.size());
+  tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
     if (occupancy.shows[i] == 0)
-      continue;
+      return;
     const CellBox cell = cell_box(prepared, i);
-    if (is_cut_away(prepared.data_clip, cell.low, cell.high))
-      continue;
-    const auto shown = shown_cell(prepared, maps, cell);
-    if (!shown) {
-      marker.mark(projector.cover(prepared.object_low, prepared.object_high));
-      break;
-    }
-    if (!is_cut_away(prepared.object_clip, shown->low, shown->high))
-      marker.mark(projector.cover(shown->low, shown->high));
+    if (between)
+      shown[i] = shown_part(with_edge(cell));
+    else if (!is_cut_away(prepared.data_clip, cell.low, cell.high))
+      shown[i] = shown_part({cell.low, cell.high});
+  });
+  TileMarker marker(prepared, first, last);
+  if (between && may_jump(prepared) && occupancy.count > 0)
+    marker.mark(projector.cover(prepared.object_low, prepared.object_high));
+  for (const std::optional<Bounds>& bounds : shown) {
+    if (bounds && (between || !is_cut_away(prepared.object_clip, bounds->low, bounds->high)))
+      marker.mark(projector.cover(bounds->low, bounds->high));
   }
   return marker.take();
 }

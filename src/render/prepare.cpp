@@ -184,6 +184,7 @@ void prepare_cells(PreparedScene& prepared) {
   const std::size_t reach = render.filter == Filter::cubic ? 2 : 1;
   if (!prepared.cells || prepared.cells->reach != reach)
     prepared.cells = cell_ranges(prepared.volume, reach);
+  prepare_label_cells(prepared);
   prepared.skipping = skipping_of(prepared);
 }
 
@@ -304,6 +305,12 @@ void draw_own_colors(PreparedScene& prepared) {
     throw UsageError(
         "overlay.legend shows a transfer function, and the volume has colours of its own; set it "
         "to false" +
+        instead);
+  if (prepared.scene.render.skip != Skip::none)
+    throw UsageError(
+        "render.skip '" + word(prepared.scene.render.skip) +
+        "' knows empty cells by a transfer function, which the volume's own colours have not; set "
+        "render.skip to none" +
         instead);
   if (prepared.scene.render.shading != Shading::none)
     throw UsageError(
