@@ -1,5 +1,6 @@
 // A ray through each pixel, sampled front to back (docs/pipeline.md). The loop gathers in its own variables only and nothing
-// that a diverging loop computes is read but through them.
+// that a diverging loop computes is read but through them. PARTS: only the samples whose bricks are loaded; parts are blended
+// front to back, and under MIP classified when all are there.
 
 #include "lib/opacity.glsl"
 #include "lib/composite.glsl"
@@ -39,6 +40,10 @@ uniform int jitter_seed;
 #include "gpu/ray.glsl"
 #include "gpu/iso.glsl"
 #include "gpu/occupancy.glsl"
+
+#ifdef PARTS
+uniform vec2 sample_range;  // numbers of the first and the last sample of a part whose bricks are loaded
+#endif
 
 float stretch() { return 1.0; }
 float sample_ratio() { return distance_ratio; }
@@ -133,6 +138,14 @@ void main() {
   if (interval.x <= interval.y) {
     int first = int(first_sample(interval.x - offset * delta, delta));
     int last = int(last_sample(interval.y - offset * delta, delta));
+#ifdef PARTS
+#ifdef MODE_ISO
+    first = max(first, int(sample_range.x) - 1);  // the surface may lie between the last part's last sample and the first
+#else
+    first = max(first, int(sample_range.x));
+#endif
+    last = min(last, int(sample_range.y));
+#endif
 #ifdef MODE_ISO
     vec4 hit = first_surface(ray, first, last, offset);
     if (hit.w > 0.0) gathered = vec4(surface_color(hit.xyz, to_eye), 1.0);
@@ -177,7 +190,9 @@ void main() {
 #endif
 #endif
   }
-#if defined(MODE_MIP) && defined(VOLUMES)
+#if defined(MODE_MIP) && defined(PARTS)
+  // Parts are put together and classified at the end (classify_maximum.frag).
+#elif defined(MODE_MIP) && defined(VOLUMES)
   vec4 shown = color_of_units(gathered);
   gathered = associated(shown.rgb, shown.a);
 #elif defined(MODE_MIP)

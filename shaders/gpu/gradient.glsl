@@ -17,6 +17,8 @@ vec3 gradient_at(vec3 t, vec3 p) { return gradient_scale * linear_texels(gradien
 
 #ifdef GRADIENT_PREFILTERED
 float tap(vec3 t) { return linear_texels(gradient_texture, t).r; }
+#elif defined(PAGED) && !defined(GRADIENT_IN_OBJECT_SPACE)
+float tap(vec3 t) { return value_from_texel.x * held_texel(t) + value_from_texel.y; }
 #else
 float tap(vec3 t) { return displayed_value(t); }
 #endif
@@ -43,6 +45,9 @@ vec3 gradient_at(vec3 t, vec3 p) {
   vec3 at = p;
 #else
   vec3 at = t;
+#ifdef PAGED
+  hold_page(t);
+#endif
 #endif
 #ifdef GRADIENT_FORWARD
   return forward_gradient(at, h);

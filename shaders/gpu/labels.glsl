@@ -9,8 +9,16 @@ uniform sampler2D label_rows;      // two texels for each: texel position in lab
                                    // the factor of its reference length; then its mode (lib/two_level.glsl)
 
 int label_row(vec3 t) {
+#ifdef PAGED
+  ivec3 size = ivec3(level_voxels[0].xyz);
+#else
   ivec3 size = textureSize(label_texture, 0);
+#endif
   ivec3 voxel = ivec3(label_voxel(t.x, size.x), label_voxel(t.y, size.y), label_voxel(t.z, size.z));
+#ifdef PAGED
+  vec3 place = page_of(vec3(voxel) + 0.5, 0).xyz;
+  voxel = place.x > no_place ? ivec3(0) : voxel + ivec3(place);
+#endif
   return int(texelFetch(label_texture, voxel, 0).r);
 }
 

@@ -27,12 +27,7 @@ uniform vec4 level_scale[LEVELS];   // the brick's texture coordinate = scale ·
 uniform vec4 level_offset[LEVELS];
 
 #if LEVELS > 1
-uniform float log_zoom;
-
-// Of the sample at work; gradients take all their taps at it, with a step of one voxel of it.
-float sample_level = float(LEVELS - 1);
-void choose_level(float q) { sample_level = level_of(q, float(LEVELS - 1), log_zoom); }
-vec3 level_step(vec3 voxel) { return voxel * exp2(sample_level); }
+#include "gpu/level_choice.glsl"
 
 // Of the levels at most two have weight. (Loops that run once or never would spare a software rasteriser the others, but
 // Mesa's takes minutes to compile a gradient's seven samples of them.)

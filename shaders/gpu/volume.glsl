@@ -3,7 +3,7 @@
 // FILTER_LINEAR_EXACT takes the eight voxels one by one and weighs them in float, where drivers filter with weights
 // of 8 bits. FILTER_CUBIC takes the 64 voxels of the cubic B-spline by eight fetches of a texture that filters linearly
 // (lib/cubic.glsl); a fetch beyond the edge clamps both its voxels, as the filter of 64 would clamp each. Otherwise the
-// texture's own filter (nearest or linear) is used.
+// texture's own filter (nearest or linear) is used. PAGED: the texture is a pool of bricks (gpu/pages.glsl).
 
 uniform vec2 value_from_texel;  // data value = x · texel + y
 
@@ -63,8 +63,12 @@ vec4 filtered_texels(sampler3D voxels, vec3 t) {
 
 float filtered_texel(sampler3D voxels, vec3 t) { return filtered_texels(voxels, t).r; }
 
-#ifdef LEVELS
+#if defined(LEVELS) && LEVELS > 1
 #include "lib/levels.glsl"
+#endif
+#if defined(PAGED)
+#include "gpu/pages.glsl"
+#elif defined(LEVELS)
 #include "gpu/levels.glsl"
 #else
 uniform sampler3D volume_texture;

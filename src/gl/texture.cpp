@@ -260,4 +260,18 @@ Texture make_texture_3d(const Functions& gl, const TextureSpec& spec, std::array
   });
 }
 
+void update_texture_3d(const Functions& gl, const Texture& texture, const TextureSpec& spec,
+                       std::array<int, 3> first, std::array<int, 3> size, std::span<const std::byte> data) {
+  const Job job = make_job(gl, spec, 3, size);
+  if (data.size() != total_bytes(job))
+    throw GraphicsError("a part of " + size_text(job) + " texels needs " + std::to_string(total_bytes(job)) +
+                        " bytes; " + std::to_string(data.size()) + " were given");
+  const TextureBindingGuard binding(gl, GL_TEXTURE_3D);
+  const UnpackGuard unpack(gl);
+  gl.BindTexture(GL_TEXTURE_3D, texture.name());
+  gl.TexSubImage3D(GL_TEXTURE_3D, 0, first[0], first[1], first[2], size[0], size[1], size[2],
+                   job.layout.format, job.layout.type, data.data());
+  check_made(job);
+}
+
 } // namespace slicelens::gl

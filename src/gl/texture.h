@@ -55,4 +55,10 @@ Texture make_texture_3d(const Functions& gl, const TextureSpec& spec, std::array
 Texture make_texture_3d(const Functions& gl, const TextureSpec& spec, std::array<int, 3> size,
                         const FillSlab& fill, const Progress& progress = {});
 
+/// Replaces the texels of a box of a 3D texture that was made with `spec`: `data` holds them tightly packed.
+/// Bindings and pixel store stay as they were. Throws GraphicsError when `data` has another size or the box
+/// does not lie in the texture.
+void update_texture_3d(const Functions& gl, const Texture& texture, const TextureSpec& spec,
+                       std::array<int, 3> first, std::array<int, 3> size, std::span<const std::byte> data);
+
 } // namespace slicelens::gl

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "core/text.h"
 #include "render/voxel_filter.h"
+#include "volume/streamed.h"
 
 #include <tbb/parallel_for.h>
 #include <unistd.h>
@@ -132,6 +133,7 @@ void fill(const PreparedScene& prepared, Volume& result, double outside, const P
 Volume bake(const PreparedScene& prepared, const BakeOptions& options, const Progress& progress) {
   if (!prepared.volume.colors.rgba.empty())
     throw UsageError("a volume of colours cannot be baked; choose one component with volume.component");
+  require_voxels(prepared.volume, "baking");
   Volume result = placed(prepared, options);
   check_room(result);
   const double outside = options.outside.value_or(prepared.volume.min);

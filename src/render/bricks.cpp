@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "render/level_function.h"
+#include "render/pages.h"
 #include "tess/lens_footprint.h"
 #include "volume/pyramid.h"
 
@@ -101,7 +102,17 @@ std::vector<double> boundaries(std::size_t voxels, std::size_t tiles) {
 
 bool is_bricked(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
-  return prepared.levels > 1 || render.tiles[0] > 1 || render.tiles[1] > 1 || render.tiles[2] > 1;
+  const bool asked = prepared.levels > 1 || render.tiles[0] > 1 || render.tiles[1] > 1 || render.tiles[2] > 1;
+  return asked && !is_paged(prepared);
+}
+
+std::optional<Bounds> finer_level_data(const PreparedScene& prepared, std::size_t level) {
+  if (level + 1 >= prepared.levels || prepared.scene.render.footprint == Footprint::mip)
+    return std::nullopt;
+  const auto& dims = prepared.volume.dims;
+  const glm::dvec3 n(dims[0], dims[1], dims[2]);
+  const Part seen = seen_at(prepared, {glm::dvec3(0), n}, level);
+  return Bounds{seen.low / n, seen.high / n};
 }
 
 BrickPlan plan_bricks(const PreparedScene& prepared) {

@@ -4,13 +4,16 @@
 
 #include "render/prepare.h"
 #include "tess/tile_mesh.h"
+#include "warp/object_bounds.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace slicelens {
 
-/// Whether the volume is held otherwise than in one texture of its full resolution.
+/// Whether the volume is held in several textures: render.tiles and render.levels of one that fits
+/// render.memory (pages.h).
 bool is_bricked(const PreparedScene& prepared);
 
 /// The voxels [first, first + size) of one level (volume/pyramid.h) as a texture.
@@ -41,6 +44,11 @@ struct BrickPlan {
 ///
 /// Throws UsageError naming render.tiles or render.levels where the volume has too few voxels for them.
 BrickPlan plan_bricks(const PreparedScene& prepared);
+
+/// The box of the data that lenses show magnified enough to be seen at `level`, texture coordinates, empty
+/// (low > high) for nothing of it; no value for the coarsest level and under render.footprint `mip`, where
+/// any data may be.
+std::optional<Bounds> finer_level_data(const PreparedScene& prepared, std::size_t level);
 
 /// Voxels of all bricks together. Throws LimitError on overflow.
 std::size_t brick_voxels(const BrickPlan& plan);

@@ -3,10 +3,14 @@
 
 #include "gl/texture.h"
 #include "render/axis_textures.h"
+#include "render/brick_pool.h"
 #include "render/bricks.h"
 #include "render/gradient_texture.h"
 #include "render/label_textures.h"
 #include "render/prepare.h"
+#include "render/texels.h"
+
+#include <memory>
 
 namespace slicelens {
 
@@ -27,6 +31,7 @@ struct GpuScene {
   std::size_t whole_bytes = 0; ///< of the volume in one texture at full resolution, and the transfer function
   BrickPlan plan;              ///< where the volume is bricked (render.tiles, render.levels)
   std::vector<gl::Texture> bricks; ///< of plan.bricks; `volume` is empty then
+  std::unique_ptr<BrickPool> pool; ///< where the volume is paged (pages.h); `volume` is empty then
   std::size_t transfer_texels = 0;
   GradientTexture gradients;      ///< for shading
   AxisTextures axis;              ///< empty but under pipeline `axis`
@@ -36,10 +41,6 @@ struct GpuScene {
   std::vector<GpuScene> others;   ///< of the volumes after the first
 };
 
-/// The texture that render.volume_texture `auto` stands for: r16 for integers of 8 and 16 bits, which it
-/// holds exactly, else r32f. Not r8: software drivers filter 8-bit textures to 8 bits (docs/accuracy.md).
-VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type);
-
 /// The transfer function as the GPU reads it: the papers' 256 texels for an 8-bit texture, else as many as it
 /// needs.
 TransferTable drawn_table(const PreparedScene& prepared);
@@ -48,8 +49,7 @@ TransferTable drawn_table(const PreparedScene& prepared);
 /// cubic B-spline from linear fetches (shaders/gpu/volume.glsl).
 GLenum texture_filter(Filter filter);
 
-/// Uploads both. Integers are stored so that they come back exactly where the format has the bits; otherwise
-/// values are scaled to the format over the volume's range. Voxels without a value have been filled before
+/// Uploads both. Voxels without a value have been filled before
 /// (volume/missing.h). Throws LimitError where the driver has no room.
 GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Progress& progress);
 

@@ -1,7 +1,9 @@
 #include "render/gradient_texture.h"
 
 #include "core/errors.h"
+#include "scene/names.h"
 #include "volume/gradient_volume.h"
+#include "volume/streamed.h"
 
 #include <algorithm>
 #include <climits>
@@ -69,6 +71,8 @@ GradientTexture upload_gradients(const gl::Functions& gl, const PreparedScene& p
   made.voxel = glm::vec3(1.0 / glm::dvec3(dims[0], dims[1], dims[2]));
   if (!uses_gradients(prepared.scene))
     return made;
+  if (render.gradient == Gradient::prefiltered || render.gradient == Gradient::precomputed)
+    require_voxels(prepared.volume, "render.gradient '" + word(render.gradient) + "'");
   if (render.gradient == Gradient::prefiltered)
     upload_copy(gl, prepared, made);
   else if (render.gradient == Gradient::precomputed)

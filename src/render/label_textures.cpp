@@ -1,5 +1,7 @@
 #include "render/label_textures.h"
 
+#include "render/pages.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -64,19 +66,22 @@ LabelTextures upload_labels(const gl::Functions& gl, const PreparedScene& prepar
   spec.format = GL_RGBA32F;
   textures.rows =
       gl::make_texture_2d(gl, spec, {2, height}, std::as_bytes(std::span<const glm::vec4>(infos)));
-  textures.labels = upload_rows_of_voxels(gl, prepared, progress);
-  textures.bytes =
-      prepared.labels.rows.size() + width * rows.size() * (eight_bit ? 4 : 16) + 32 * rows.size();
+  const bool paged = is_paged(prepared); // then they lie beside the bricks
+  if (!paged)
+    textures.labels = upload_rows_of_voxels(gl, prepared, progress);
+  textures.bytes = (paged ? 0 : prepared.labels.rows.size()) + width * rows.size() * (eight_bit ? 4 : 16) +
+                   32 * rows.size();
   return textures;
 }
 
-void set_labels(const gl::Functions& gl, const gl::Program& program, const LabelTextures& textures) {
+void set_labels(const gl::Functions& gl, const gl::Program& program, const LabelTextures& textures,
+                const gl::Texture& rows_of_voxels) {
   const auto bind = [&](const char* name, GLenum unit, GLenum target, const gl::Texture& texture) {
     gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(target, texture.name());
     set_uniform(gl, program, name, static_cast<int>(unit));
   };
-  bind("label_texture", first_unit, GL_TEXTURE_3D, textures.labels);
+  bind("label_texture", first_unit, GL_TEXTURE_3D, rows_of_voxels);
   bind("label_table", first_unit + 1, GL_TEXTURE_2D, textures.table);
   bind("label_rows", first_unit + 2, GL_TEXTURE_2D, textures.rows);
 }

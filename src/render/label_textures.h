@@ -17,7 +17,9 @@ struct LabelTextures {
 /// Nothing under other modes than `two-level`. Throws LimitError where the driver has no room.
 LabelTextures upload_labels(const gl::Functions& gl, const PreparedScene& prepared, const Progress& progress);
 
-/// Binds them and sets what shaders/gpu/labels.glsl declares. The program must be in use.
-void set_labels(const gl::Functions& gl, const gl::Program& program, const LabelTextures& textures);
+/// Binds them and sets what shaders/gpu/labels.glsl declares. The program must be in use. `rows_of_voxels`:
+/// textures.labels, or the labels beside the bricks of a pool.
+void set_labels(const gl::Functions& gl, const gl::Program& program, const LabelTextures& textures,
+                const gl::Texture& rows_of_voxels);
 
 } // namespace slicelens

@@ -1,8 +1,8 @@
 #include "render/pass_tiles.h"
 
 #include "render/occupancy.h"
+#include "render/screen_cover.h"
 #include "render/shown_parts.h"
-#include "render/stack_geometry.h"
 
 #include <tbb/parallel_for.h>
 
@@ -13,68 +13,6 @@
 namespace slicelens {
 
 namespace {
-
-glm::dvec3 corner(const glm::dvec3& low, const glm::dvec3& high, int k) {
-  return glm::mix(low, high, glm::dvec3(k & 1, k >> 1 & 1, k >> 2 & 1));
-}
-
-/// Whether some half-space leaves nothing of a box.
-bool is_cut_away(const std::vector<Plane>& planes, const glm::dvec3& low, const glm::dvec3& high) {
-  return std::any_of(planes.begin(), planes.end(), [&](const Plane& plane) {
-    const glm::dvec3 farthest = glm::mix(low, high, glm::greaterThan(plane.normal, glm::dvec3(0)));
-    return signed_value(plane, farthest) < -1e-9 * glm::length(plane.normal);
-  });
-}
-
-/// What a box of texture coordinates of the displayed volume covers: pixels from the bottom left corner, and
-/// depths in slice distances from the plane between planes −1 and 0.
-struct Cover {
-  glm::dvec2 low{std::numeric_limits<double>::infinity()};
-  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
-  double near = std::numeric_limits<double>::infinity();
-  double far = -std::numeric_limits<double>::infinity();
-};
-
-class Projector {
-public:
-  explicit Projector(const PreparedScene& prepared)
-      : clip_from_texture_(slicelens::clip_from_texture(prepared)),
-        size_(prepared.view.width, prepared.view.height) {
-    const View& view = prepared.view;
-    const glm::dmat4& world_from_texture = prepared.box.world_from_texture;
-    const glm::dvec3 slope = glm::transpose(glm::dmat3(world_from_texture)) * view.forward;
-    const double offset = depth(view, glm::dvec3(world_from_texture[3])) - depth(view, center(prepared.box));
-    distance_ = glm::dvec4(slope, offset) / prepared.spacing;
-    eye_ = view.projection == Projection::perspective ? -depth(view, center(prepared.box)) / prepared.spacing
-                                                      : -std::numeric_limits<double>::infinity();
-  }
-
-  Cover cover(const glm::dvec3& low, const glm::dvec3& high) const {
-    Cover cover;
-    for (int k = 0; k < 8; ++k) {
-      const glm::dvec4 point(corner(low, high, k), 1);
-      const double distance = glm::dot(distance_, point);
-      cover.near = std::min(cover.near, distance);
-      cover.far = std::max(cover.far, distance);
-      const glm::dvec4 clip = clip_from_texture_ * point;
-      const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size_;
-      cover.low = glm::min(cover.low, pixel);
-      cover.high = glm::max(cover.high, pixel);
-    }
-    // At the eye and behind it corners say nothing about what is seen.
-    if (cover.near <= eye_ + 1e-3) {
-      cover.low = glm::dvec2(0);
-      cover.high = size_;
-    }
-    return cover;
-  }
-
-private:
-  glm::dmat4 clip_from_texture_;
-  glm::dvec2 size_;
-  glm::dvec4 distance_{0};
-  double eye_ = 0;
-};
 
 class TileMarker {
 public:
@@ -90,7 +28,7 @@ public:
   }
 
   /// A thousandth of a slice distance and a hundredth of a pixel allow for the shader's rounding.
-  void mark(const Cover& cover) {
+  void mark(const ScreenCover& cover) {
     const auto first = std::max(first_, number(std::ceil(cover.near - 0.5 - half_ - jitter_ - 1e-3)));
     const auto last = std::min(last_, number(std::floor(cover.far - 0.5 + half_ + 1e-3)));
     const int left = tile(cover.low.x - 0.01, tiles_.columns);
@@ -144,15 +82,6 @@ bool may_jump(const PreparedScene& prepared) {
           prepared.scene.render.axis_filter == AxisFilter::nearest);
 }
 
-/// A cell, for segments with all that its faces on the volume's stand for: ends beyond the volume take the
-/// values of its edge. As much as the volume again is more than half a sample distance looks away from it.
-Bounds with_edge(const CellBox& cell) {
-  const glm::dvec3 zero(0);
-  const glm::dvec3 one(1);
-  return {glm::mix(cell.low, zero - 1.0, glm::equal(cell.low, zero)),
-          glm::mix(cell.high, one + 1.0, glm::equal(cell.high, one))};
-}
-
 } // namespace
 
 std::int64_t pass_of(std::int64_t plane, std::size_t planes_per_pass) {
@@ -161,7 +90,7 @@ std::int64_t pass_of(std::int64_t plane, std::size_t planes_per_pass) {
 }
 
 PassTiles tiles_of_passes(const PreparedScene& prepared, std::int64_t first, std::int64_t last) {
-  const Projector projector(prepared);
+  const ScreenProjector projector(prepared);
   const ShownBounds shown_part = shown_parts(prepared);
   const Occupancy occupancy = occupancy_of(prepared);
   // A segment may show what lies beside its sample, also beyond what cuts the sample away.
@@ -172,7 +101,7 @@ PassTiles tiles_of_passes(const PreparedScene& prepared, std::int64_t first, std
       return;
     const CellBox cell = cell_box(prepared, i);
     if (between)
-      shown[i] = shown_part(with_edge(cell));
+      shown[i] = shown_part(with_edge({cell.low, cell.high}));
     else if (!is_cut_away(prepared.data_clip, cell.low, cell.high))
       shown[i] = shown_part({cell.low, cell.high});
   });

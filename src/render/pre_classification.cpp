@@ -1,6 +1,7 @@
 #include "render/pre_classification.h"
 
 #include "render/gpu_scene.h"
+#include "volume/streamed.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -73,8 +74,7 @@ public:
       table_ = table_of<T>(prepared.transfer, ratio_);
   }
 
-  void operator()(std::size_t first, std::span<std::byte> out) const {
-    const Volume& volume = prepared_.volume;
+  void operator()(const Volume& volume, std::size_t first, std::span<std::byte> out) const {
     const T* voxels = reinterpret_cast<const T*>(volume.voxels.data()) + first;
     if constexpr (has_table) {
       fill(voxels, out,
@@ -100,8 +100,8 @@ public:
   explicit ColorClassifier(const PreparedScene& prepared)
       : prepared_(prepared), ratio_(baked_ratio(prepared)) {}
 
-  void operator()(std::size_t first, std::span<std::byte> out) const {
-    const VoxelColors& colors = prepared_.volume.colors;
+  void operator()(const Volume& volume, std::size_t first, std::span<std::byte> out) const {
+    const VoxelColors& colors = volume.colors;
     const std::size_t count = out.size() / classified_voxel_bytes;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1 << 14), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -110,7 +110,7 @@ public:
         for (int c = 0; c < 4; ++c)
           color[c] = colors.rgba[4 * voxel + static_cast<std::size_t>(c)] / 255.0;
         if (!colors.has_opacity)
-          color.a = evaluate(prepared_.transfer, scalar_at(prepared_.volume, voxel)).a;
+          color.a = evaluate(prepared_.transfer, scalar_at(volume, voxel)).a;
         const Texel texel = associated_texel(color, ratio_);
         std::memcpy(out.data() + i * classified_voxel_bytes, texel.data(), classified_voxel_bytes);
       }
@@ -138,7 +138,14 @@ int texels(std::size_t n) { return static_cast<int>(std::min<std::size_t>(n, INT
 } // namespace
 
 void classify_voxels(const PreparedScene& prepared, std::size_t first, std::span<std::byte> out) {
-  with_classifier(prepared, [&](const auto& classifier) { classifier(first, out); });
+  require_voxels(prepared.volume, "render.classification 'pre' in one texture");
+  with_classifier(prepared, [&](const auto& classifier) { classifier(prepared.volume, first, out); });
+}
+
+VoxelClassifier voxel_classifier(const PreparedScene& prepared) {
+  VoxelClassifier result;
+  with_classifier(prepared, [&](const auto& classifier) { result = classifier; });
+  return result;
 }
 
 std::vector<std::byte> classify_voxels(const PreparedScene& prepared) {
@@ -158,7 +165,7 @@ gl::Texture upload_classified(const gl::Functions& gl, const PreparedScene& prep
     texture = gl::make_texture_3d(
         gl, spec, {texels(dims[0]), texels(dims[1]), texels(dims[2])},
         [&](int z0, int, std::span<std::byte> slab) {
-          classifier(static_cast<std::size_t>(z0) * dims[0] * dims[1], slab);
+          classifier(prepared.volume, static_cast<std::size_t>(z0) * dims[0] * dims[1], slab);
         },
         progress);
   });

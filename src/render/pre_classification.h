@@ -12,6 +12,7 @@
 #include "render/prepare.h"
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,10 @@ inline constexpr std::size_t classified_voxel_bytes = 4;
 /// classified_voxel_bytes each. Voxels without a value have been filled before
 /// (volume/missing.h). Multithreaded.
 void classify_voxels(const PreparedScene& prepared, std::size_t first, std::span<std::byte> out);
+
+/// The same for voxels of a part of the volume, or of a coarser level of it. `prepared` must outlive it.
+using VoxelClassifier = std::function<void(const Volume& part, std::size_t first, std::span<std::byte> out)>;
+VoxelClassifier voxel_classifier(const PreparedScene& prepared);
 
 /// The whole volume.
 std::vector<std::byte> classify_voxels(const PreparedScene& prepared);

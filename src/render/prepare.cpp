@@ -3,10 +3,12 @@
 #include "core/errors.h"
 #include "render/bricks.h"
 #include "render/occupancy.h"
+#include "render/pages.h"
 #include "scene/camera.h"
 #include "scene/names.h"
 #include "volume/missing.h"
 #include "volume/pyramid.h"
+#include "volume/streamed.h"
 #include "warp/object_bounds.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -159,7 +161,7 @@ void prepare_effects(PreparedScene& prepared) {
 /// as the smallest one.
 void fill_missing(PreparedScene& prepared) {
   Volume& volume = prepared.volume;
-  if (volume.non_finite == 0)
+  if (volume.non_finite == 0 || is_streamed(volume)) // of those on disk whoever loads a box replaces them
     return;
   const bool maximum = prepared.scene.render.mode == Mode::mip;
   const auto empty = maximum ? std::nullopt : empty_value(prepared.transfer, volume.min, volume.max);
@@ -169,21 +171,37 @@ void fill_missing(PreparedScene& prepared) {
 /// The levels above the first. They depend on the data alone, so those there are stay.
 void prepare_pyramid(PreparedScene& prepared) {
   const std::size_t count = prepared.levels - 1;
+  if (is_streamed(prepared.volume)) {
+    const std::vector<Volume>& coarser = prepared.volume.streamed->coarser;
+    if (coarser.size() < count)
+      throw UsageError("render.levels " + std::to_string(prepared.levels) + " needs " +
+                       std::to_string(count) + " coarser levels, and the voxels on disk (" +
+                       prepared.volume.streamed->where + ") have " + std::to_string(coarser.size()) +
+                       "; set volume.access to cache or memory");
+    prepared.pyramid.assign(coarser.begin(), coarser.begin() + static_cast<std::ptrdiff_t>(count));
+    return;
+  }
   prepared.pyramid.resize(std::min(prepared.pyramid.size(), count));
   while (prepared.pyramid.size() < count)
     prepared.pyramid.push_back(
         half_size(prepared.pyramid.empty() ? prepared.volume : prepared.pyramid.back()));
 }
 
-/// What render.skip tells empty cells by. It depends on the data and the filter's reach, so it stays.
+/// What render.skip and pages tell empty cells by. It depends on the data and the filter's reach, so it
+/// stays.
 void prepare_cells(PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
   prepared.skipping = {};
-  if (render.skip == Skip::none)
+  if (render.skip == Skip::none && !is_paged(prepared))
     return;
   const std::size_t reach = render.filter == Filter::cubic ? 2 : 1;
-  if (!prepared.cells || prepared.cells->reach != reach)
+  const bool on_disk = is_streamed(prepared.volume); // known with the larger reach, which holds for both
+  if (on_disk && !prepared.cells)
+    prepared.cells = prepared.volume.streamed->cells;
+  if (!on_disk && (!prepared.cells || prepared.cells->reach != reach))
     prepared.cells = cell_ranges(prepared.volume, reach);
+  if (render.skip == Skip::none)
+    return;
   prepare_label_cells(prepared);
   prepared.skipping = skipping_of(prepared);
 }
@@ -248,7 +266,9 @@ void prepare_one(PreparedScene& prepared, const Box& first, double spacing) {
   prepared.steps = sample_steps(prepared);
   prepared.levels =
       scene.render.footprint == Footprint::mip ? footprint_level_count(prepared) : scene.render.levels;
-  if (is_bricked(prepared))
+  if (is_paged(prepared))
+    refuse_unpaged_settings(prepared);
+  if (is_bricked(prepared) || prepared.levels > 1)
     (void)plan_bricks(prepared); // refuses tiles and levels that the volume has no voxels for
   prepare_pyramid(prepared);
   prepare_cells(prepared);

@@ -4,6 +4,8 @@
 #include "gl/target.h"
 #include "render/gpu_scene.h"
 
+#include <optional>
+
 namespace slicelens {
 
 class RayRenderer {
@@ -17,8 +19,13 @@ public:
             const Progress& progress);
 
 private:
+  void draw_parts(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target);
+  void classify(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target);
+
   const gl::Functions* gl_;
   gl::Program program_;
+  gl::Program classify_program_;       ///< MIP in parts only
+  std::optional<gl::Target> gathered_; ///< likewise
   gl::VertexArray no_vertices_;
 };
 

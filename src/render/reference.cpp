@@ -10,6 +10,7 @@
 #include "render/smooth_copy.h"
 #include "render/voxel_filter.h"
 #include "volume/gradient_volume.h"
+#include "volume/streamed.h"
 
 #include <tbb/parallel_for.h>
 
@@ -586,6 +587,8 @@ void trace_all(const PreparedScene& prepared, Image& image, const Progress& prog
 
 Image render_reference(const PreparedScene& prepared, const Progress& progress) {
   check_sample_count(prepared);
+  for (std::size_t i = 0; i < volume_count(prepared); ++i)
+    require_voxels(volume_at(prepared, i).volume, "pipeline 'reference'");
   Image image = make_image(prepared.view.width, prepared.view.height);
   visit_scalar_type(prepared.volume.type, [&](auto* tag) {
     trace_all<std::remove_pointer_t<decltype(tag)>>(prepared, image, progress);

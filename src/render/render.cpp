@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "core/stopwatch.h"
 #include "render/reference.h"
+#include "render/paged_draw.h"
 #include "render/render_session.h"
 #include "render/scene_overlay.h"
 #include "scene/names.h"
@@ -43,6 +44,7 @@ void render_on_gpu(const PreparedScene& prepared, gl::Context& context, const Pr
   result.texture = session.textures().texture;
   result.texture_bytes = session.textures().bytes;
   result.whole_texture_bytes = session.textures().whole_bytes;
+  result.pools = pool_counts(session.textures());
   result.volume_textures = std::max<std::size_t>(1, session.textures().bricks.size());
 }
 

@@ -4,9 +4,11 @@
 #include "core/progress.h"
 #include "gl/context.h"
 #include "image/image.h"
+#include "render/brick_pool.h"
 #include "render/prepare.h"
 
 #include <optional>
+#include <vector>
 
 namespace slicelens {
 
@@ -34,6 +36,7 @@ struct RenderResult {
   std::size_t whole_texture_bytes =
       0;                           ///< what they would be with the volume in one texture at full resolution
   std::size_t volume_textures = 0; ///< that hold the volume: 1 without render.tiles, levels, footprint
+  std::vector<PoolCounts> pools;   ///< of the volumes that are drawn through one
   std::size_t draw_calls = 0;      ///< of the slices
   std::size_t slices = 0;          ///< drawn, 0 for rays and reference
   std::size_t triangles = 0;       ///< of all slices

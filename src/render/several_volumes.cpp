@@ -15,6 +15,9 @@ const std::vector<std::string>& own_names() {
       "value_from_texel", "texel_at", "cubic_weights", "cubic_fetches", "cubic_axis", "linear_texels",
       "filtered_texels", "filtered_texel", "volume_texture", "sample_texel", "displayed_texel",
       "displayed_value",
+      // gpu/pages.glsl
+      "page_texture", "texture_from_pool", "pages_from_voxels", "level_voxels", "level_pages", "no_place",
+      "page_of", "page_texels", "voxel_of", "sample_texels", "held_page", "hold_page", "held_texel",
       // gpu/classify.glsl
       "transfer_texture", "transfer_from_value", "transfer_from_texel", "classify", "classify_texel",
       // the chain of warps, gpu/warp.glsl
@@ -44,6 +47,9 @@ std::string one_volume(std::size_t index, std::size_t warps, const PreparedScene
   std::string text = "#undef GRADIENT_IN_OBJECT_SPACE\n";
   if (volume.gradient_space == GradientSpace::object)
     text += "#define GRADIENT_IN_OBJECT_SPACE\n";
+  text += "#undef PAGED\n#undef LEVELS\n";
+  if (is_paged(volume))
+    text += "#define PAGED\n#define LEVELS 1\n";
   text += "#undef TRANSFER_2D\n";
   if (!volume.scene.transfer.shapes.empty())
     text += "#define TRANSFER_2D\n";
@@ -141,6 +147,7 @@ void set_volumes(const gl::Functions& gl, const gl::Program& program, const Prep
     TextureUnits units;
     units.volume = counter.take();
     units.transfer = counter.take();
+    units.pages = textures.pool ? counter.take() : 0;
     units.gradient = textures.gradients.texture ? counter.take() : 0;
     units.transfer_2d = textures.transfer_2d ? counter.take() : 0;
     units.grids.clear();

@@ -37,4 +37,9 @@ ShownBounds shown_parts(const PreparedScene& prepared) {
   };
 }
 
+Bounds with_edge(const Bounds& box) {
+  return {glm::mix(box.low, glm::dvec3(-1), glm::lessThanEqual(box.low, glm::dvec3(0))),
+          glm::mix(box.high, glm::dvec3(2), glm::greaterThanEqual(box.high, glm::dvec3(1)))};
+}
+
 } // namespace slicelens

@@ -11,4 +11,9 @@ namespace slicelens {
 /// the tables of pipeline `axis` make of the warps is allowed for.
 ShownBounds shown_parts(const PreparedScene& prepared);
 
+/// A box of texture coordinates, for segments with all that its faces on the volume's stand for: ends beyond
+/// the volume take the values of its edge. It reaches one volume farther there, more than half a sample
+/// distance looks away.
+Bounds with_edge(const Bounds& box);
+
 } // namespace slicelens

@@ -171,6 +171,7 @@ StackGeometry make_slab_geometry(const PreparedScene& prepared) {
       append_polygon(geometry, outline(prepared, to_clip, stack, slab), slab.first, slab.last);
     }
     geometry.index_ends.push_back(geometry.indices.size());
+    geometry.numbers.push_back({slab.first, slab.last});
   }
   return geometry;
 }

@@ -3,6 +3,7 @@
 #include "gl/check.h"
 #include "gl/state.h"
 #include "gl/timer.h"
+#include "render/paged_draw.h"
 #include "render/ray_uniforms.h"
 #include "render/several_volumes.h"
 #include "render/shaders.h"
@@ -97,6 +98,7 @@ void SliceRenderer::slice(const PreparedScene& prepared) {
 
 void SliceRenderer::set_geometry(const StackGeometry& geometry) {
   index_ends_ = geometry.index_ends;
+  numbers_ = geometry.numbers;
   batches_ = geometry.batches;
   planes_in_passes_ = geometry.planes;
 
@@ -116,58 +118,57 @@ void SliceRenderer::set_geometry(const StackGeometry& geometry) {
   indices_ = gl::make_buffer(*gl_, GL_ELEMENT_ARRAY_BUFFER, std::as_bytes(std::span(geometry.indices)));
 }
 
-void SliceRenderer::draw_stack(const GpuScene& scene, const Progress& progress) {
+void SliceRenderer::draw_entries(std::size_t begin, std::size_t end) const {
+  if (begin >= end)
+    return;
+  const std::size_t first = begin == 0 ? 0 : index_ends_[begin - 1];
+  gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(index_ends_[end - 1] - first), GL_UNSIGNED_INT,
+                    reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
+}
+
+void SliceRenderer::draw_stack(const GpuScene& scene, std::size_t begin, std::size_t end,
+                               const Progress& progress) {
   if (!batches_.empty()) {
     draw_batches(*gl_, program_, scene, batches_, progress);
     return;
   }
-  const std::size_t count = index_ends_.size();
   // One call draws the whole stack in order. Only where somebody watches it is cut into steps.
+  const std::size_t count = index_ends_.size();
   const std::size_t step =
       progress.advance ? std::max<std::size_t>(1, count / 50) : std::max<std::size_t>(1, count);
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < count; i += step) {
-    const std::size_t end = index_ends_[std::min(count, i + step) - 1];
-    gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(end - begin), GL_UNSIGNED_INT,
-                      reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
-    begin = end;
+  for (std::size_t i = begin; i < end; i += step) {
+    draw_entries(i, std::min(end, i + step));
     if (progress.advance) {
       gl::finish(*gl_);
       report_progress(progress, "draw",
-                      static_cast<double>(std::min(count, i + step)) / static_cast<double>(count));
+                      static_cast<double>(std::min(end, i + step)) / static_cast<double>(count));
     }
   }
 }
 
-void SliceRenderer::draw_unhidden(const PreparedScene& prepared, const gl::Target& target,
+void SliceRenderer::draw_unhidden(const PreparedScene& prepared, std::size_t first, std::size_t last,
                                   const Progress& progress) {
   const gl::Functions& gl = *gl_;
-  if (!marks_ || !marks_->fits(target))
-    marks_.emplace(gl, target);
-  marks_->begin();
   const std::size_t every = std::max<std::size_t>(1, slices_per_mark / prepared.scene.render.planes_per_pass);
   const std::size_t count = index_ends_.size();
   // Nothing is opaque before so many slices.
   const double safe =
       prepared.skipping.opaque_after / static_cast<double>(prepared.scene.render.planes_per_pass);
-  for (std::size_t i = 0; i < count; i += every) {
-    const std::size_t begin = i == 0 ? 0 : index_ends_[i - 1];
-    const std::size_t end = index_ends_[std::min(count, i + every) - 1];
+  for (std::size_t i = first; i < last; i += every) {
     gl.UseProgram(program_.name());
     gl.BindVertexArray(vertex_array_.name());
-    gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(end - begin), GL_UNSIGNED_INT,
-                    reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
+    draw_entries(i, std::min(last, i + every));
     if (i + every < count && static_cast<double>(i + every) >= safe)
       marks_->mark(marks_unit);
     if (progress.advance) {
       gl::finish(gl);
       report_progress(progress, "draw",
-                      static_cast<double>(std::min(count, i + every)) / static_cast<double>(count));
+                      static_cast<double>(std::min(last, i + every)) / static_cast<double>(count));
     }
   }
 }
 
-void SliceRenderer::draw_runs(const PreparedScene& prepared, const gl::Target& target,
+void SliceRenderer::draw_runs(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target,
                               const Progress& progress) {
   const gl::Functions& gl = *gl_;
   if (!runs_ || runs_->width() != target.width || runs_->height() != target.height)
@@ -176,17 +177,23 @@ void SliceRenderer::draw_runs(const PreparedScene& prepared, const gl::Target& t
   runs_->begin(program_);
   const std::size_t count = index_ends_.size();
   const std::size_t step = std::max<std::size_t>(1, count / 50);
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::size_t i = prepared.scene.render.order == Order::back_to_front ? count - 1 - n : n;
-    const std::size_t begin = i == 0 ? 0 : index_ends_[i - 1];
-    runs_->before_slice(program_, n);
-    gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(index_ends_[i] - begin), GL_UNSIGNED_INT,
-                    reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
-    if (progress.advance && (n + 1) % step == 0) {
-      gl::finish(gl);
-      report_progress(progress, "draw", static_cast<double>(n + 1) / static_cast<double>(count));
-    }
-  }
+  const bool reversed = prepared.scene.render.order == Order::back_to_front;
+  std::vector<SliceNumbers> numbers = numbers_;
+  if (reversed)
+    std::reverse(numbers.begin(), numbers.end());
+  draw_in_parts(gl, prepared, scene, numbers, target, Splitting::along_view, "mode 'two-level' with runs",
+                [&](std::size_t begin, std::size_t end) {
+                  for (std::size_t n = begin; n < end; ++n) {
+                    const std::size_t i = reversed ? count - 1 - n : n;
+                    runs_->before_slice(program_, n);
+                    draw_entries(i, i + 1);
+                    if (progress.advance && (n + 1) % step == 0) {
+                      gl::finish(gl);
+                      report_progress(progress, "draw",
+                                      static_cast<double>(n + 1) / static_cast<double>(count));
+                    }
+                  }
+                });
   gl::bind_target(gl, target);
   gl.BindVertexArray(no_vertices_.name());
   runs_->end(prepared.xray_scale);
@@ -233,7 +240,7 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   }
   gl.BindVertexArray(vertex_array_.name());
   if (has_local_modes(prepared.labels)) {
-    draw_runs(prepared, target, progress);
+    draw_runs(prepared, scene, target, progress);
     gl::check_errors(gl, "drawing the runs of labels");
     return;
   }
@@ -241,10 +248,19 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
     set_depth_test(gl, render);
   else
     set_blending(gl, render);
-  if (marks_hidden(prepared))
-    draw_unhidden(prepared, target, progress);
-  else
-    draw_stack(scene, progress);
+  const bool marked = marks_hidden(prepared);
+  if (marked) {
+    if (!marks_ || !marks_->fits(target))
+      marks_.emplace(gl, target);
+    marks_->begin();
+  }
+  draw_in_parts(gl, prepared, scene, numbers_, target, Splitting::everywhere, "the stack",
+                [&](std::size_t begin, std::size_t end) {
+                  if (marked)
+                    draw_unhidden(prepared, begin, end, progress);
+                  else
+                    draw_stack(scene, begin, end, progress);
+                });
   if (planes_)
     draw_planes_last(prepared, scene);
   if (maxima_)

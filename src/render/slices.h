@@ -37,11 +37,16 @@ public:
   std::size_t draw_call_count() const { return batches_.empty() ? 1 : batches_.size(); }
 
 private:
-  void draw_stack(const GpuScene& scene, const Progress& progress);
+  /// The triangles of entries [begin, end) of the index buffer.
+  void draw_entries(std::size_t begin, std::size_t end) const;
+  /// Of the entries [begin, end) of the index buffer: all slices, or the part whose bricks are loaded.
+  void draw_stack(const GpuScene& scene, std::size_t begin, std::size_t end, const Progress& progress);
   /// Passes of several slices front to back, with marks between them that hide what lies behind.
-  void draw_unhidden(const PreparedScene& prepared, const gl::Target& target, const Progress& progress);
+  void draw_unhidden(const PreparedScene& prepared, std::size_t begin, std::size_t end,
+                     const Progress& progress);
   /// Local modes: slice by slice from the eye, whatever render.order is, then the colours into `target`.
-  void draw_runs(const PreparedScene& prepared, const gl::Target& target, const Progress& progress);
+  void draw_runs(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target,
+                 const Progress& progress);
   /// Opaque polygons stop what lies behind them by depth. Back to front they are what slices blend over;
   /// front to back they come last, under the slices.
   void draw_planes_first(const PreparedScene& prepared, const GpuScene& scene) const;
@@ -59,6 +64,7 @@ private:
   gl::Buffer corners_;
   gl::Buffer indices_;
   std::vector<std::size_t> index_ends_; ///< of each slice, or pass of several, in the index buffer
+  std::vector<SliceNumbers> numbers_;   ///< of each
   std::size_t planes_in_passes_ = 0;    ///< where passes draw several (render/slabs.h)
   std::optional<PlaneRenderer> planes_; ///< where the scene has some
   std::vector<TileBatch> batches_;      ///< where the volume is held in tiles

@@ -78,6 +78,7 @@ StackGeometry shell_geometry(const PreparedScene& prepared, SliceRequest request
     for (std::uint32_t i = 1; i + 1 < slice.count; ++i)
       geometry.indices.insert(geometry.indices.end(), {first, first + i, first + i + 1});
     geometry.index_ends.push_back(geometry.indices.size());
+    geometry.numbers.push_back({slice.index, slice.index});
   }
   return geometry;
 }
@@ -153,6 +154,7 @@ StackGeometry make_stack_geometry(const PreparedScene& prepared) {
     else
       append_mesh(geometry, mesh);
     geometry.index_ends.push_back(geometry.indices.size());
+    geometry.numbers.push_back({slice.index, slice.index});
   }
   return geometry;
 }

@@ -15,6 +15,12 @@ struct StackVertex {
                       ///< Shells: x is the number k of the shell
 };
 
+/// The numbers k of the slices or samples that one entry of a drawing covers.
+struct SliceNumbers {
+  std::int64_t first = 0;
+  std::int64_t last = -1;
+};
+
 /// Triangles that follow each other and read the same tile.
 struct TileBatch {
   std::size_t tile = 0;
@@ -25,6 +31,7 @@ struct StackGeometry {
   std::vector<StackVertex> vertices;
   std::vector<std::uint32_t> indices;  ///< three a triangle
   std::vector<std::size_t> index_ends; ///< of each slice
+  std::vector<SliceNumbers> numbers;   ///< of each slice or pass
   std::vector<LensRegion> regions;     ///< of each triangle
   /// Where the volume is held in several tiles, else empty. Drawing is by slice, and by tile within a slice,
   /// where tiles share no more than edges: so blending is in order. Every other slice goes through its tiles

@@ -59,7 +59,9 @@ std::vector<std::string> common_macros(const PreparedScene& prepared) {
     macros.emplace_back("CLASSIFICATION_PRE");
   if (render.classification == Classification::preintegrated)
     macros.emplace_back("PREINTEGRATED");
-  if (is_bricked(prepared))
+  if (is_paged(prepared))
+    macros.emplace_back("PAGED");
+  if (is_paged(prepared) || is_bricked(prepared))
     macros.push_back("LEVELS " + std::to_string(prepared.levels));
   if (render.footprint == Footprint::mip && prepared.levels > 1)
     macros.emplace_back("FOOTPRINT");
@@ -188,11 +190,15 @@ void set_volume_uniforms(const gl::Functions& gl, const gl::Uniforms& program, c
                          const GpuScene& scene, const TextureUnits& units) {
   set_warp_uniforms(gl, program, prepared, units);
   bind_grids(gl, scene.grids, units.grids);
-  gl.ActiveTexture(GL_TEXTURE0 + units.volume);
-  gl.BindTexture(GL_TEXTURE_3D, scene.volume.name());
+  if (scene.pool) {
+    scene.pool->bind(gl, program, units.volume, units.pages);
+  } else {
+    gl.ActiveTexture(GL_TEXTURE0 + units.volume);
+    gl.BindTexture(GL_TEXTURE_3D, scene.volume.name());
+    set_uniform(gl, program, "volume_texture", static_cast<int>(units.volume));
+  }
   gl.ActiveTexture(GL_TEXTURE0 + units.transfer);
   gl.BindTexture(GL_TEXTURE_1D, scene.transfer.name());
-  set_uniform(gl, program, "volume_texture", static_cast<int>(units.volume));
   set_uniform(gl, program, "transfer_texture", static_cast<int>(units.transfer));
   if (scene.transfer_2d) {
     gl.ActiveTexture(GL_TEXTURE0 + units.transfer_2d);
@@ -243,8 +249,8 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
   else
     set_volumes(gl, program, prepared, scene);
   set_sample_uniforms(gl, program, prepared);
-  if (scene.labels.labels)
-    set_labels(gl, program, scene.labels);
+  if (scene.labels.table)
+    set_labels(gl, program, scene.labels, scene.pool ? scene.pool->labels() : scene.labels.labels);
   if (has_highlight(prepared.effects) || has_attenuation(prepared.effects))
     set_struct(gl, program, "effects", prepared.effects);
   if (scene.axis[0])
@@ -255,12 +261,14 @@ void set_common_uniforms(const gl::Functions& gl, const gl::Program& program, co
     set_uniform(gl, program, "segment_texture", static_cast<int>(segment_unit));
     set_uniform(gl, program, "segment_from_texel", scene.segment_from_texel);
   }
-  if (!scene.bricks.empty()) {
+  if (!scene.bricks.empty() || scene.pool) {
     set_uniform(gl, program, "log_zoom", static_cast<float>(prepared.log_zoom));
     const auto& dims = prepared.volume.dims;
     set_uniform(gl, program, "volume_voxels", glm::vec3(dims[0], dims[1], dims[2]));
     set_uniform(gl, program, "sample_steps", glm::mat3(prepared.steps.at_unit));
     set_uniform(gl, program, "sample_step_scale", glm::vec4(prepared.steps.scale));
+  }
+  if (!scene.bricks.empty()) {
     set_level_samplers(gl, program, scene);
     bind_tile(gl, program, scene, 0);
   }

@@ -17,6 +17,7 @@ std::vector<std::string> common_macros(const PreparedScene& prepared);
 struct TextureUnits {
   GLenum volume = 0;
   GLenum transfer = 1;
+  GLenum pages = 9;        ///< of a pool's page table: a level's, which a pool has not
   GLenum gradient = 10;    ///< the second texture that some gradients need
   GLenum transfer_2d = 11; ///< of value and gradient
   std::vector<GLenum> grids = grid_units;

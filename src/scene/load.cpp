@@ -3,9 +3,12 @@
 #include "core/errors.h"
 #include "core/text.h"
 #include "scene/camera_files.h"
+#include "scene/rules.h"
 #include "scene/transfer_files.h"
+#include "volume/on_disk.h"
 #include "volume/phantom.h"
 
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -46,13 +49,113 @@ VolumeSource source_of(const VolumeSettings& settings, const std::vector<fs::pat
   return source;
 }
 
+VoxelBudget budget_of(const Scene& scene) {
+  VoxelBudget budget;
+  const RenderSettings& render = scene.render;
+  budget.levels = render.levels;
+  if (render.footprint == Footprint::mip && render.levels == 1)
+    budget.levels = max_levels; // as many as the picture will need
+  budget.texture = render.volume_texture;
+  if (!what_needs_voxels(scene))
+    budget.bytes = std::uintmax_t{render.memory.value_or(default_memory)} << 20;
+  return budget;
+}
+
+namespace {
+
+/// A file that need not be there yet: relative names count from the scene's own folder.
+fs::path beside_scene(const std::string& file, const std::vector<fs::path>& folders) {
+  const fs::path path(file);
+  return path.is_absolute() || folders.empty() ? path : folders.front() / path;
+}
+
+/// Whether the budget holds all voxels of a volume like this.
+bool fits(const Volume& volume, const VoxelBudget& budget) {
+  const std::size_t automatic = size_of(volume.type) <= 2 ? 2 : 4;
+  const std::size_t texel = budget.texture == VolumeTexture::automatic ? automatic
+                            : budget.texture == VolumeTexture::r8      ? 1
+                            : budget.texture == VolumeTexture::r16     ? 2
+                                                                       : 4;
+  return voxel_count(volume) <= budget.bytes / texel;
+}
+
+Volume stream_or_refuse(const VolumeSource& source, const VoxelBudget& budget, const Progress& progress) {
+  if (budget.levels > 1)
+    throw UsageError("volume.access 'stream' has no coarser levels, which render.levels and render.footprint "
+                     "ask for; set it to cache or memory");
+  std::optional<Volume> volume = stream_volume(source, progress);
+  if (!volume) {
+    throw UsageError("volume.access 'stream' needs the voxels as they are in the file (raw, raw NRRD and "
+                     "MetaImage, DICOM) and one component; " +
+                     source.file.string() + " has not; set it to cache or memory");
+  }
+  return std::move(*volume);
+}
+
+/// Files of formats whose headers are not read alone are taken for this many times their size at most, unless
+/// they are read anyway.
+constexpr std::uintmax_t usual_expansion = 8;
+
+bool may_be_large(const VolumeSource& source, const VoxelBudget& budget) {
+  std::uintmax_t bytes = 0;
+  for (const fs::path& file : files_of(source))
+    bytes += fs::file_size(file);
+  return bytes > budget.bytes / usual_expansion;
+}
+
+/// volume.access `auto`: in memory what the budget holds, else streamed, else copied in bricks.
+Volume read_by_size(const VolumeSource& source, const CacheRequest& cache, const Progress& progress,
+                    const VoxelBudget& budget) {
+  if (budget.bytes == std::numeric_limits<std::uintmax_t>::max())
+    return read_volume(source, progress);
+  const std::optional<VolumeOutline> outline = outline_of(source);
+  if (outline) {
+    const bool several = outline->volume.components > 1 && !source.component;
+    if (several || fits(outline->volume, budget))
+      return read_volume(source, progress);
+    if (outline->streams && budget.levels == 1)
+      return stream_or_refuse(source, budget, progress);
+    return cached_volume(source, cache, progress);
+  }
+  if (may_be_large(source, budget)) {
+    if (std::optional<Volume> copy = cached_already(source, cache, progress))
+      return std::move(*copy);
+  }
+  Volume volume = read_volume(source, progress);
+  if (volume.components > 1 || fits(volume, budget))
+    return volume;
+  return cached_volume(source, cache, progress, std::move(volume));
+}
+
+Volume read_as_asked(const VolumeSettings& settings, const std::vector<fs::path>& folders,
+                     const Progress& progress, const VoxelBudget& budget) {
+  const VolumeSource source = source_of(settings, folders);
+  CacheRequest cache;
+  cache.levels = budget.levels;
+  if (settings.cache)
+    cache.file = beside_scene(*settings.cache, folders);
+  switch (settings.access) {
+  case VolumeAccess::memory:
+    return read_volume(source, progress);
+  case VolumeAccess::stream:
+    return stream_or_refuse(source, budget, progress);
+  case VolumeAccess::cache:
+    return cached_volume(source, cache, progress);
+  case VolumeAccess::automatic:
+    break;
+  }
+  return read_by_size(source, cache, progress, budget);
+}
+
+} // namespace
+
 Volume load_volume(const VolumeSettings& settings, const std::vector<fs::path>& folders,
-                   const Progress& progress) {
+                   const Progress& progress, const VoxelBudget& budget) {
   if (!settings.file) {
     const std::string& name = settings.phantom.value_or("head");
     return make_phantom(name, settings.size.value_or(phantom_info(name).size), progress);
   }
-  Volume volume = read_volume(source_of(settings, folders), progress);
+  Volume volume = read_as_asked(settings, folders, progress, budget);
   if (holds_colors(volume))
     return with_luminance(volume);
   if (volume.components > 1) {
@@ -63,7 +166,8 @@ Volume load_volume(const VolumeSettings& settings, const std::vector<fs::path>& 
   }
   if (volume.non_finite > 0) {
     report_warning(progress, *settings.file + ": " + std::to_string(volume.non_finite) +
-                                 " voxels are NaN or infinite and are drawn as empty");
+                                 " voxels are NaN or infinite and are drawn as " +
+                                 (is_streamed(volume) ? "the smallest value" : "empty"));
   }
   return volume;
 }
@@ -148,7 +252,7 @@ LoadedVolume load_volume_of(const Scene& scene, std::size_t index, const std::ve
                             const Progress& progress) {
   Scene one = scene_of_volume(scene, index);
   LoadedVolume loaded;
-  loaded.volume = load_volume(one.volume, folders, progress);
+  loaded.volume = load_volume(one.volume, folders, progress, budget_of(scene));
   load_transfer_file(one.transfer, loaded.volume, folders, progress);
   loaded.transfer = transfer_of(one, loaded.volume);
   return loaded;

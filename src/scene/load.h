@@ -6,7 +6,9 @@
 #include "volume/read.h"
 #include "volume/transfer.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 namespace slicelens {
@@ -20,10 +22,23 @@ std::filesystem::path resolve_file(const std::string& file, const std::vector<st
 /// The reader's request for a scene's volume; `settings.file` must be set.
 VolumeSource source_of(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders);
 
+/// What textures may hold of a volume, which decides where volume.access `auto` leaves its voxels.
+struct VoxelBudget {
+  std::uintmax_t bytes = std::numeric_limits<std::uintmax_t>::max(); ///< the default keeps all in memory
+  VolumeTexture texture = VolumeTexture::automatic;                  ///< whose texels are counted
+  std::size_t levels = 1; ///< of the pyramid that a volume on disk needs beside its voxels
+};
+
+/// render.memory, or no limit where the scene needs all voxels at once.
+VoxelBudget budget_of(const Scene& scene);
+
 /// Reads the file or makes the phantom. The result has one component: several need `volume.component`, or a
-/// UsageError says so. RGB and RGBA without volume.component become luminances with colours (with_luminance).
+/// UsageError says so. RGB and RGBA without volume.component become luminances with colours (with_luminance)
+/// and are always held in memory. volume.access says where the voxels of other files are: a streamed volume
+/// (volume/streamed.h) with `stream` and `cache`, and with `auto` where they are more than the budget. Throws
+/// UsageError where the format cannot be streamed.
 Volume load_volume(const VolumeSettings& settings, const std::vector<std::filesystem::path>& folders,
-                   const Progress& progress);
+                   const Progress& progress, const VoxelBudget& budget = {});
 
 /// Puts the points that a transfer.file holds in its place, so that the scene stands alone; nothing to do
 /// without one. Tables without transfer.range are stretched over the data's range, those of 256 rows for

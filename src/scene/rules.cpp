@@ -78,6 +78,7 @@ void validate(const Scene& scene) {
   validate_skip(scene);
   validate_labels(scene);
   validate_gradients(scene);
+  validate_access(scene);
   if (scene.crop) {
     for (int axis = 0; axis < 3; ++axis) {
       if (!(scene.crop->low[axis] < scene.crop->high[axis]))

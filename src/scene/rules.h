@@ -4,6 +4,9 @@
 
 #include "scene/scene.h"
 
+#include <optional>
+#include <string>
+
 namespace slicelens {
 
 // What is shown and from where: rules_inputs.cpp.
@@ -34,5 +37,12 @@ void validate_effects(const Scene& scene);
 void validate_warps(const Scene& scene);
 void validate_bricks(const Scene& scene);
 void validate_footprint(const Scene& scene);
+
+// Where the voxels are: rules_access.cpp.
+void validate_access(const Scene& scene);
+
+/// What of the scene works on all voxels at once ("render.pipeline 'reference'"), which volumes that stay on
+/// disk cannot give; nothing where it can be drawn box by box.
+std::optional<std::string> what_needs_voxels(const Scene& scene);
 
 } // namespace slicelens

@@ -290,6 +290,9 @@ inline constexpr std::size_t max_planes_shown = 16;
 inline constexpr std::size_t max_tiles = 1024;    ///< in all
 inline constexpr std::size_t min_tile_voxels = 4; ///< on each axis of a tile
 inline constexpr std::size_t max_levels = 8;
+
+/// Where render.memory is not given, MiB: the largest texture that software drivers make.
+inline constexpr std::size_t default_memory = 1024;
 /// Of render.subdivision.
 inline constexpr std::size_t max_subdivision = 512;
 /// Limit of render.grid_size; the upper one is max_grid_nodes.

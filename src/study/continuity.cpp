@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "core/text.h"
+#include "volume/streamed.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -139,6 +140,7 @@ double trilinear(const Volume& volume, const dvec3& t) {
 VoxelMask displayed_mask(const Volume& volume, const TextureMap& u, double threshold,
                          const std::array<std::size_t, 3>& dims) {
   check_threshold(threshold);
+  require_voxels(volume, "displayed mask");
   if (*std::min_element(dims.begin(), dims.end()) == 0)
     throw UsageError("displayed mask: every size must be at least 1");
   VoxelMask mask{dims, {}};

@@ -4,6 +4,7 @@
 #include "core/files.h"
 #include "scene/camera_files.h"
 #include "scene/names.h"
+#include "volume/streamed.h"
 
 #include <nlohmann/json.hpp>
 
@@ -141,6 +142,7 @@ void write_export(const PreparedScene& prepared, const fs::path& folder) {
   if (!prepared.volume.colors.rgba.empty())
     throw UsageError("volume.file: a volume of colours cannot be exported; choose volume.component");
   require_exportable(prepared.scene);
+  require_voxels(prepared.volume, "an export");
   const Json scene = {{"format", "slicelens-export"},        {"version", 1},
                       {"title", prepared.scene.title},       {"volume", volume_of(prepared.volume)},
                       {"transfer", transfer_json(prepared)}, {"camera", camera_of(prepared)},

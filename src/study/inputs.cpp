@@ -8,6 +8,7 @@
 #include "scene/load.h"
 #include "scene/load_labels.h"
 #include "scene/load_warps.h"
+#include "scene/names.h"
 #include "scene/scene_json.h"
 
 #include <algorithm>
@@ -185,7 +186,7 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
                    std::future<std::string> hashing) {
   if (!hashing.valid() && (sha256 != nullptr || !input.expected_sha256.empty()))
     hashing = start_hash(input);
-  Volume volume = load_volume(input.scene.volume, input.folders, progress);
+  Volume volume = load_volume(input.scene.volume, input.folders, progress, budget_of(input.scene));
   const std::string hash = hashing.valid() ? hashing.get() : "";
   require_hash(input, hash);
   if (sha256 != nullptr)
@@ -202,6 +203,19 @@ PreparedScene load(const SceneInput& input, const Progress& progress, std::strin
     load_transfer_file(scene.others[i].transfer, others[i].volume, input.folders, {});
   return prepare(std::move(scene), std::move(volume), std::move(transfer), std::move(others),
                  std::move(labels));
+}
+
+void hold_voxels(SceneInput& input, const std::string& what) {
+  const auto hold = [&](VolumeSettings& volume) {
+    if (volume.access == VolumeAccess::stream || volume.access == VolumeAccess::cache)
+      throw UsageError(what + " needs all voxels at once, which volume.access '" + word(volume.access) +
+                       "' does not hold; set volume.access to memory");
+    volume.access = VolumeAccess::memory;
+    volume.cache.reset();
+  };
+  hold(input.scene.volume);
+  for (auto& other : input.scene.others)
+    hold(other.volume);
 }
 
 std::size_t checked_volume(const Scene& scene, int index) {
@@ -230,7 +244,7 @@ void load_again(PreparedScene& prepared, const SceneInput& input, const Progress
     const bool known = i <= had;
     const Scene before = known ? scene_of_volume(one.scene, 0) : Scene{};
     if (!known || text_of(before.volume, &Scene::volume) != text_of(now.volume, &Scene::volume))
-      set_volume(one, load_volume(now.volume, input.folders, progress));
+      set_volume(one, load_volume(now.volume, input.folders, progress, budget_of(scene)));
     TransferSettings& transfer = i == 0 ? scene.transfer : scene.others[i - 1].transfer;
     load_transfer_file(transfer, one.volume, input.folders, progress);
     now.transfer = transfer;

@@ -61,6 +61,10 @@ std::future<std::string> start_hash(const SceneInput& input);
 PreparedScene load(const SceneInput& input, const Progress& progress, std::string* sha256 = nullptr,
                    std::future<std::string> hashing = {});
 
+/// For work on all voxels at once (`what`, "slicelens warp"): volumes whose volume.access is `auto` are held
+/// in memory whatever render.memory says. Throws UsageError where it is `stream` or `cache`.
+void hold_voxels(SceneInput& input, const std::string& what);
+
 /// `--volume`: which one of the scene's volumes. Throws UsageError where it has fewer.
 std::size_t checked_volume(const Scene& scene, int index);
 

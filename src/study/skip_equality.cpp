@@ -1,6 +1,9 @@
 #include "study/skip_equality.h"
 
 #include "core/errors.h"
+#include "core/files.h"
+#include "render/slabs.h"
+#include "scene/image_scene.h"
 #include "scene/names.h"
 #include "volume/phantom.h"
 
@@ -69,9 +72,9 @@ void add_ways(std::vector<SkipDifference>& list, OpenContext& context, PreparedS
   }
   const Image expected = render_with(context, prepared, {}).image;
   const bool slices = draws_slices(plain.pipeline);
-  for (const Skip skip : {Skip::empty, Skip::empty_and_hidden}) {
+  for (const Skip skip : {Skip::none, Skip::empty, Skip::empty_and_hidden}) {
     for (const std::size_t planes : {std::size_t{1}, std::size_t{32}}) {
-      if (!slices && planes > 1)
+      if ((!slices && planes > 1) || (skip == Skip::none && planes == 1))
         continue;
       RenderSettings render = plain;
       render.skip = skip;
@@ -80,7 +83,7 @@ void add_ways(std::vector<SkipDifference>& list, OpenContext& context, PreparedS
       difference.way = pipeline + (planes > 1 ? ", 32 planes a pass, " : ", ") + word(skip);
       difference.refused = prepare_with(prepared, render);
       if (difference.refused.empty()) {
-        difference.leaves_out = prepared.skipping.empty || skip == Skip::empty_and_hidden;
+        difference.leaves_out = prepared.skipping.empty || marks_hidden(prepared);
         compare(difference, render_with(context, prepared, {}).image, expected);
       }
       list.push_back(difference);
@@ -89,6 +92,16 @@ void add_ways(std::vector<SkipDifference>& list, OpenContext& context, PreparedS
 }
 
 } // namespace
+
+std::vector<std::filesystem::path> volume_scenes(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == ".json" && !is_image_scene(read_text(entry.path())))
+      files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
 
 SceneInput small_scene(const std::filesystem::path& file, std::size_t pixels, std::size_t voxels) {
   SceneInput input = scene_input(file.string(), {});

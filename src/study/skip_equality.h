@@ -19,13 +19,17 @@ struct SkipDifference {
   std::size_t values = 0;  ///< of the picture
 };
 
+/// All scene files in a folder and below it, in order, but for scenes of pictures: there is nothing to skip.
+std::vector<std::filesystem::path> volume_scenes(const std::filesystem::path& folder);
+
 /// The scene file, at most `pixels` wide and high and, where it shows phantoms, of at most `voxels` on an
 /// edge. Throws as scene_input.
 SceneInput small_scene(const std::filesystem::path& file, std::size_t pixels, std::size_t voxels);
 
 /// The scene drawn by slices, those of its own pipeline where that one can, else `fragment`, and by rays:
 /// render.skip `empty` and `empty+hidden`, slices one and 32 in a pass, against single slices, or rays, that
-/// leave out nothing. Where the plain picture is refused already nothing is listed but that. Throws as load.
+/// leave out nothing; 32 in a pass also with `none`, which tells what passes change by themselves. Where the
+/// plain picture is refused already nothing is listed but that. Throws as load.
 std::vector<SkipDifference> skip_differences(OpenContext& context, const SceneInput& input);
 
 } // namespace slicelens

@@ -10,15 +10,15 @@
 
 namespace slicelens {
 
-namespace {
-
-/// Floats that bound a double.
 float rounded_down(double value) {
   const auto near = static_cast<float>(value);
   return static_cast<double>(near) <= value ? near
                                             : std::nextafter(near, -std::numeric_limits<float>::infinity());
 }
+
 float rounded_up(double value) { return -rounded_down(-value); }
+
+namespace {
 
 /// Smallest and largest of `count` scalars.
 template <class T>

@@ -27,4 +27,8 @@ struct CellRanges {
 /// no number count as the volume's smallest.
 CellRanges cell_ranges(const Volume& volume, std::size_t reach);
 
+/// The nearest floats that are at most and at least `value`.
+float rounded_down(double value);
+float rounded_up(double value);
+
 } // namespace slicelens

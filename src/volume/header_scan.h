@@ -20,6 +20,9 @@ struct HeaderScan {
   std::uintmax_t stored = 0; ///< bytes that they take there
   bool big_endian = false;
   std::uintmax_t claimed = 0; ///< bytes that they are once decoded, all frames
+  /// MetaImage, raw: bytes that each file holds of them, 0 where the files do not share them evenly.
+  std::uintmax_t in_each_file = 0;
+  long long header_size = 0; ///< MetaImage's HeaderSize: -1 for data at the end of each file
 };
 
 /// Each throws FileError when the header is not one of its format, a needed field is missing or wrong, the

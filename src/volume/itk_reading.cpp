@@ -165,6 +165,13 @@ private:
 } // namespace
 
 struct LibraryMessages::State {
+  /// What is redirected is the process's own, so threads that read slices of volumes on disk take turns.
+  static std::mutex& turn() {
+    static std::mutex mutex;
+    return mutex;
+  }
+
+  std::unique_lock<std::mutex> lock;
   const Progress& progress;
   std::string label;
   itk::OutputWindow::Pointer old_window;
@@ -176,7 +183,8 @@ struct LibraryMessages::State {
 };
 
 LibraryMessages::LibraryMessages(const std::string& label, const Progress& progress)
-    : state_(new State{progress,
+    : state_(new State{std::unique_lock(State::turn()),
+                       progress,
                        label,
                        itk::OutputWindow::GetInstance(),
                        CollectingWindow::New(),
@@ -274,7 +282,6 @@ Volume header_of(itk::ImageIOBase& io, const fs::path& path, bool components_are
   volume.components = components_are_frames ? 1 : static_cast<int>(components);
   volume.type = scalar_type_of(path, io.GetComponentType());
   read_geometry(io, path, volume);
-  check_memory(path, voxel_bytes(volume));
   return volume;
 }
 

@@ -127,6 +127,32 @@ void check_geometry(const fs::path& path, const MetaHeader& header, std::size_t 
 
 } // namespace
 
+namespace {
+
+/// Bytes of `claimed` in each data file, when there are as many as the axes beyond a file's make: all but the
+/// last axis, or as many as `LIST 2` says. 0 otherwise.
+std::uintmax_t share_of_files(const MetaHeader& header, const std::vector<long long>& sizes,
+                              const HeaderScan& scan) {
+  const std::vector<std::string> words = words_of(lower(field_of(header, "ElementDataFile").value_or("")));
+  if (scan.data_files.empty() || words.empty())
+    return scan.claimed;
+  std::size_t inside = sizes.size() - 1; // axes of one file
+  if (words[0] == "list" && words.size() == 2 && words[1].size() == 1)
+    inside = static_cast<std::size_t>(words[1][0] - '0');
+  else if (words[0] != "list" && words[0].find('%') == std::string::npos)
+    inside = sizes.size();
+  else if (words[0] == "list" ? words.size() != 1 : words.size() != 4)
+    return 0;
+  if (inside < 1 || inside > sizes.size())
+    return 0;
+  std::uintmax_t files = 1;
+  for (std::size_t axis = inside; axis < sizes.size(); ++axis)
+    files *= static_cast<std::uintmax_t>(sizes[axis]); // less than `claimed`, which did not overflow
+  return files == scan.data_files.size() ? scan.claimed / files : 0;
+}
+
+} // namespace
+
 HeaderScan scan_meta(const fs::path& path) {
   const std::uintmax_t file_bytes = require_file(path);
   const MetaHeader header = parse(path);
@@ -182,6 +208,7 @@ HeaderScan scan_meta(const fs::path& path) {
     const auto skip = integers_of(path, "HeaderSize", *skip_text);
     if (skip.size() != 1 || skip[0] < -1)
       throw FileError(path.string(), "'HeaderSize = " + one_line(*skip_text) + "' must be -1 or more");
+    scan.header_size = skip[0];
     const std::uintmax_t skipped = (skip[0] > 0 ? static_cast<std::uintmax_t>(skip[0]) : 0) *
                                    std::max<std::uintmax_t>(1, scan.data_files.size());
     stored -= std::min(stored, skipped);
@@ -189,6 +216,7 @@ HeaderScan scan_meta(const fs::path& path) {
   scan.claimed = claimed_bytes(path, "DimSize", all_sizes, scalar);
   check_claim(path, "DimSize", scan.claimed, stored, encoding, scalar);
   scan.encoding = encoding;
+  scan.in_each_file = encoding == Encoding::raw ? share_of_files(header, sizes, scan) : 0;
   scan.stored = stored;
   if (encoding != Encoding::raw && scan.data_files.size() > 1)
     throw FileError(path.string(),

@@ -202,6 +202,12 @@ std::vector<std::byte> read_text(const fs::path& path, const NrrdHeader& header,
   return part_of(std::move(all.voxels), part);
 }
 
+void warn_of_more(const fs::path& path, std::size_t total, const Progress& progress) {
+  report_warning(progress, path.string() + ": its data are longer than 'sizes' says; the first " +
+                               std::to_string(total) +
+                               " bytes are used (a header in front of them needs 'byte skip')");
+}
+
 std::vector<std::byte> read_binary(const fs::path& path, const NrrdHeader& header, const NrrdPart& part,
                                    const Progress& progress) {
   NrrdStream stream(path, header, part.total);
@@ -214,9 +220,7 @@ std::vector<std::byte> read_binary(const fs::path& path, const NrrdHeader& heade
     stream.read(bytes.data() + done, piece);
   }
   if (part.first + part.count == part.total && stream.has_more())
-    report_warning(progress, path.string() + ": its data are longer than 'sizes' says; the first " +
-                                 std::to_string(part.total) +
-                                 " bytes are used (a header in front of them needs 'byte skip')");
+    warn_of_more(path, part.total, progress);
   return bytes;
 }
 
@@ -229,11 +233,42 @@ std::vector<std::byte> read_nrrd_data(const fs::path& path, const NrrdHeader& he
   std::vector<std::byte> bytes = header.encoding == Encoding::hex
                                      ? part_of(bytes_of_hex(path, text_of(path, header), part.total), part)
                                      : read_binary(path, header, part, progress);
-  const auto endian = header.fields.find("endian");
-  const bool big = endian != header.fields.end() && lower(endian->second) == "big";
-  if (header.scalar_bytes > 1 && big != (std::endian::native == std::endian::big))
+  if (is_swapped(header))
     swap_bytes(bytes, header.scalar_bytes);
   return bytes;
+}
+
+bool is_swapped(const NrrdHeader& header) {
+  const auto endian = header.fields.find("endian");
+  const bool big = endian != header.fields.end() && lower(endian->second) == "big";
+  return header.scalar_bytes > 1 && big != (std::endian::native == std::endian::big);
+}
+
+std::vector<RawLayout::Piece> nrrd_pieces(const fs::path& path, const NrrdHeader& header, std::size_t total,
+                                          bool to_end, const Progress& progress) {
+  const std::vector<fs::path> files = files_of(path, header);
+  if (total % files.size() != 0)
+    return {};
+  const std::uintmax_t share = total / files.size();
+  std::vector<RawLayout::Piece> pieces;
+  std::uintmax_t left = 0; // behind the last file's share
+  for (const fs::path& file : files) {
+    std::uintmax_t start = start_of(path, header, file);
+    const std::uintmax_t length = fs::file_size(file) - std::min(fs::file_size(file), start);
+    start += header.byte_skip == -1 ? length - std::min(length, share)
+                                    : static_cast<std::uintmax_t>(header.byte_skip);
+    const std::uintmax_t there = fs::file_size(file) - std::min(fs::file_size(file), start);
+    if (there < share) {
+      throw FileError(path.string(), "its data end " + std::to_string(share - there) +
+                                         " bytes before 'sizes' says; the file is truncated or its header "
+                                         "wrong");
+    }
+    left = there - share;
+    pieces.push_back({file, start, share});
+  }
+  if (to_end && left >= 3) // as has_more: more than a line's end
+    warn_of_more(path, total, progress);
+  return pieces;
 }
 
 } // namespace slicelens

@@ -4,6 +4,7 @@
 
 #include "core/progress.h"
 #include "volume/nrrd_header.h"
+#include "volume/raw_layout.h"
 #include "volume/volume.h"
 
 #include <cstddef>
@@ -25,5 +26,14 @@ struct NrrdPart {
 /// Throws FileError when they are shorter, damaged, or text that holds no numbers.
 std::vector<std::byte> read_nrrd_data(const std::filesystem::path& path, const NrrdHeader& header,
                                       ScalarType type, const NrrdPart& part, const Progress& progress);
+
+/// Where the `total` bytes of raw data lie. Warns as read_nrrd_data does of data that are longer, if what
+/// is read reaches to their end (`to_end`); nothing where `total` is no multiple of the number of files.
+/// Throws FileError when the data are shorter.
+std::vector<RawLayout::Piece> nrrd_pieces(const std::filesystem::path& path, const NrrdHeader& header,
+                                          std::size_t total, bool to_end, const Progress& progress);
+
+/// Whether the scalars have the other byte order than the machine's.
+bool is_swapped(const NrrdHeader& header);
 
 } // namespace slicelens

@@ -53,7 +53,11 @@ std::array<std::size_t, 3> level_dims(const std::array<std::size_t, 3>& dims, st
   return result;
 }
 
-Volume half_size(const Volume& volume) {
+ScalarType coarser_type(ScalarType type) {
+  return size_of(type) <= 2 || type == ScalarType::f32 ? ScalarType::f32 : ScalarType::f64;
+}
+
+Volume coarser_outline(const Volume& volume) {
   if (volume.components != 1)
     throw UsageError("a volume of several components has no coarser levels; choose volume.component");
   Volume result;
@@ -61,16 +65,20 @@ Volume half_size(const Volume& volume) {
   result.spacing = 2.0 * volume.spacing;
   result.origin = volume.origin + volume.direction * (0.5 * volume.spacing);
   result.direction = volume.direction;
-  const bool small = size_of(volume.type) <= 2 || volume.type == ScalarType::f32;
-  result.type = small ? ScalarType::f32 : ScalarType::f64;
+  result.type = coarser_type(volume.type);
   result.min = volume.min;
   result.max = volume.max;
   result.mean = volume.mean;
   result.format = volume.format;
+  return result;
+}
+
+Volume half_size(const Volume& volume) {
+  Volume result = coarser_outline(volume);
   result.voxels.resize(voxel_bytes(result));
   visit_scalar_type(volume.type, [&](auto* tag) {
     using In = std::remove_pointer_t<decltype(tag)>;
-    if (small)
+    if (result.type == ScalarType::f32)
       average<In, float>(volume, result);
     else
       average<In, double>(volume, result);

@@ -21,6 +21,12 @@ std::array<std::size_t, 3> level_dims(const std::array<std::size_t, 3>& dims, st
 /// UsageError for several components.
 Volume half_size(const Volume& volume);
 
+/// half_size's result without voxels: its grid, place, type and statistics.
+Volume coarser_outline(const Volume& volume);
+
+/// The type of the levels above one of this type.
+ScalarType coarser_type(ScalarType type);
+
 /// The voxels [first, first + size), in their place in the world; min and max stay the whole volume's. Of a
 /// streamed volume they are read from its file. Throws UsageError for a box that is empty or reaches beyond
 /// the volume, and what VoxelStream::read throws.

@@ -58,4 +58,7 @@ bool has_ras_displacements(const std::filesystem::path& file);
 /// does. Throws FileError when a file cannot be read.
 std::string sha256_of(const std::vector<std::filesystem::path>& files);
 
+/// The same of the bytes of a text.
+std::string sha256_of_text(const std::string& text);
+
 } // namespace slicelens

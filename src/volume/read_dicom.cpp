@@ -2,16 +2,12 @@
 #include "core/text.h"
 #include "volume/dicom_header.h"
 #include "volume/dicom_series.h"
+#include "volume/dicom_slices.h"
 #include "volume/file_checks.h"
-#include "volume/itk_reading.h"
 #include "volume/readers.h"
-
-#include <itkGDCMImageIO.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <set>
 
 namespace slicelens {
 
@@ -39,106 +35,8 @@ bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// Scalar types and the range each holds exactly, smallest first.
-ScalarType type_for_both(ScalarType a, ScalarType b) {
-  const auto range = [](ScalarType type) {
-    return visit_scalar_type(type, [](auto* tag) {
-      using T = std::remove_pointer_t<decltype(tag)>;
-      return std::pair(static_cast<double>(std::numeric_limits<T>::lowest()),
-                       static_cast<double>(std::numeric_limits<T>::max()));
-    });
-  };
-  const bool real =
-      a == ScalarType::f32 || a == ScalarType::f64 || b == ScalarType::f32 || b == ScalarType::f64;
-  const auto [a_low, a_high] = range(a);
-  const auto [b_low, b_high] = range(b);
-  if (!real) {
-    for (const ScalarType type : {ScalarType::u8, ScalarType::i8, ScalarType::u16, ScalarType::i16,
-                                  ScalarType::u32, ScalarType::i32}) {
-      const auto [low, high] = range(type);
-      if (low <= std::min(a_low, b_low) && high >= std::max(a_high, b_high))
-        return type;
-    }
-    return ScalarType::f64;
-  }
-  const bool wide = size_of(a) > 4 || size_of(b) > 4 || a == ScalarType::i32 || b == ScalarType::i32 ||
-                    a == ScalarType::u32 || b == ScalarType::u32;
-  return wide ? ScalarType::f64 : ScalarType::f32;
-}
-
-std::vector<std::byte> converted(const std::vector<std::byte>& scalars, ScalarType from, ScalarType to) {
-  std::vector<std::byte> result(checked_product(scalars.size() / size_of(from), size_of(to), "volume"));
-  visit_scalar_type(from, [&](auto* from_tag) {
-    using From = std::remove_pointer_t<decltype(from_tag)>;
-    const From* in = reinterpret_cast<const From*>(scalars.data());
-    visit_scalar_type(to, [&](auto* to_tag) {
-      using To = std::remove_pointer_t<decltype(to_tag)>;
-      To* out = reinterpret_cast<To*>(result.data());
-      for (std::size_t i = 0; i < scalars.size() / sizeof(From); ++i)
-        out[i] = static_cast<To>(in[i]);
-    });
-  });
-  return result;
-}
-
-/// GDCM gives 32-bit integers to what 16 stored bits could become by the rescale (a CT whose 16 bits are not
-/// used in full); when the values fit 16 bits they are kept in 16.
-void narrow(Volume& image) {
-  if (image.type != ScalarType::i32)
-    return;
-  const auto* const values = reinterpret_cast<const std::int32_t*>(image.voxels.data());
-  const auto [low, high] = std::minmax_element(values, values + image.voxels.size() / sizeof(std::int32_t));
-  if (*low < std::numeric_limits<std::int16_t>::min() || *high > std::numeric_limits<std::int16_t>::max())
-    return;
-  image.voxels = converted(image.voxels, ScalarType::i32, ScalarType::i16);
-  image.type = ScalarType::i16;
-}
-
-/// Lines of GDCM that say nothing a user could act on: what it tried before it found the decoder, and that a
-/// file has no place in the world, which is said once below.
-bool is_noise(const std::string& message) {
-  for (const char* text :
-       {"Unsupported JPEG data precision", "DICOM header said it was", "more bits actually stored on disk",
-        "Could not find Spacing", "Could not find Origin", "Image Orientation (Patient) was not found"}) {
-    if (message.find(text) != std::string::npos)
-      return true;
-  }
-  return false;
-}
-
-/// Warnings that every slice repeats are passed on once.
-Progress saying_once(const Progress& progress) {
-  Progress once = progress;
-  once.warn = [progress, said = std::set<std::string>()](const std::string& message) mutable {
-    if (!is_noise(message) &&
-        said.insert(message.substr(std::min(message.size(), message.find(": ")))).second)
-      report_warning(progress, message);
-  };
-  return once;
-}
-
-/// Reads one file's picture (or pictures) after the check that it is what the first one was.
-Volume read_one(const DicomFile& slice, const Progress& progress) {
-  Volume image;
-  with_libraries(slice.file, progress, [&] {
-    const auto io = itk::GDCMImageIO::New();
-    io->SetFileName(slice.file.string());
-    io->ReadImageInformation();
-    image = header_of(*io, slice.file);
-    if (image.dims[0] != slice.columns || image.dims[1] != slice.rows)
-      throw FileError(slice.file.string(),
-                      "its Rows and Columns do not fit its pixel data; the file is damaged");
-    read_frame(*io, slice.file, 0, image);
-  });
-  narrow(image);
-  return image;
-}
-
 void place_slice(Volume& volume, std::size_t k, Volume& slice, const fs::path& file) {
-  if (slice.components != volume.components)
-    throw FileError(file.string(), "has " + std::to_string(slice.components) +
-                                       " components but the slices before have " +
-                                       std::to_string(volume.components));
+  require_components(slice, volume.components, file);
   if (slice.type != volume.type) {
     const ScalarType common = type_for_both(volume.type, slice.type);
     if (common != volume.type) {
@@ -202,12 +100,6 @@ std::vector<DicomFile> scan_all(const std::vector<fs::path>& candidates, const f
 }
 
 std::string name_of_source(const VolumeSource& source) { return source.file.string(); }
-
-DicomStack stack_for(const std::vector<fs::path>& candidates, const fs::path& named,
-                     const VolumeSource& source, const Progress& progress) {
-  return stack_of(scan_all(candidates, named, progress), named, name_of_source(source), source.series,
-                  source.frame, progress);
-}
 
 } // namespace
 
@@ -284,6 +176,12 @@ Volume read_enhanced(const DicomStack& stack, const Progress& progress) {
 
 } // namespace
 
+DicomStack dicom_stack(const std::vector<fs::path>& candidates, const fs::path& named,
+                       const VolumeSource& source, const Progress& progress) {
+  return stack_of(scan_all(candidates, named, progress), named, name_of_source(source), source.series,
+                  source.frame, progress);
+}
+
 bool is_dicom(const fs::path& path) {
   const std::string head = head_of(path, 132);
   if (head.size() == 132 && head.compare(128, 4, "DICM") == 0)
@@ -332,7 +230,7 @@ DicomFile scan_dicom(const fs::path& path) {
 
 std::vector<fs::path> dicom_files(const std::vector<fs::path>& candidates, const fs::path& named,
                                   const VolumeSource& source, const Progress& progress) {
-  const DicomStack stack = stack_for(candidates, named, source, progress);
+  const DicomStack stack = dicom_stack(candidates, named, source, progress);
   if (stack.one_file)
     return {stack.slices.front().file};
   std::vector<fs::path> files;
@@ -344,7 +242,7 @@ std::vector<fs::path> dicom_files(const std::vector<fs::path>& candidates, const
 Volume read_dicom(const std::vector<fs::path>& candidates, const fs::path& named, const VolumeSource& source,
                   const Progress& caller) {
   const Progress progress = saying_once(caller);
-  const DicomStack stack = stack_for(candidates, named, source, progress);
+  const DicomStack stack = dicom_stack(candidates, named, source, progress);
   if (stack.one_file)
     return read_enhanced(stack, progress);
   const std::size_t count = stack.slices.size();
@@ -355,25 +253,16 @@ Volume read_dicom(const std::vector<fs::path>& candidates, const fs::path& named
             ": its frames have no positions; they are slices in order at distance 1 (volume.spacing "
             "gives another)");
   Volume volume = read_one(stack.slices.front(), progress);
-  volume.format = "DICOM";
-  volume.frames = stack.frames;
+  const std::size_t slice_bytes = voxel_bytes(volume);
+  place_stack(volume, stack);
   if (count == 1)
     return volume;
-  const std::size_t slice_bytes = voxel_bytes(volume);
-  volume.dims[2] = count;
   check_memory(source.file, checked_product(slice_bytes, count, source.file.string()));
   volume.voxels.resize(slice_bytes * count);
   for (std::size_t k = 1; k < count; ++k) {
     Volume slice = read_one(stack.slices[k], progress);
     place_slice(volume, k, slice, stack.slices[k].file);
     report_progress(progress, "load", static_cast<double>(k + 1) / static_cast<double>(count));
-  }
-  if (stack.spacing) {
-    volume.spacing.z = *stack.spacing;
-    volume.direction[2] = *stack.axis;
-    volume.origin = *stack.slices.front().position;
-  } else {
-    volume.spacing.z = 1;
   }
   return volume;
 }

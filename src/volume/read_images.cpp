@@ -90,10 +90,10 @@ Volume read_images(const std::vector<fs::path>& files, const Progress& progress)
       if (k == 0) {
         volume = image;
         slice_bytes = voxel_bytes(image);
+        const std::size_t bytes = checked_product(slice_bytes, files.size(), file.string());
+        check_memory(file, bytes);
         if (files.size() > 1) {
           volume.dims[2] = files.size();
-          const std::size_t bytes = checked_product(slice_bytes, files.size(), file.string());
-          check_memory(file, bytes);
           volume.voxels.resize(bytes);
         }
       }

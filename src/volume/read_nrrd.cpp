@@ -278,16 +278,48 @@ std::vector<std::byte> gathered(const std::vector<std::byte>& all, const Layout&
 
 } // namespace
 
-Volume read_nrrd(const fs::path& path, std::size_t frame, const Progress& progress) {
-  const NrrdHeader header = parse_nrrd(path);
+namespace {
+
+/// All but the voxels.
+Volume described(const fs::path& path, const NrrdHeader& header, std::size_t frame, Layout& layout,
+                 const Progress& progress) {
   Volume volume;
   volume.format = "NRRD";
   volume.type = type_of(header);
-  const Layout layout = layout_of(path, header, volume);
+  layout = layout_of(path, header, volume);
   if (frame >= volume.frames)
     throw UsageError("volume.frame is " + std::to_string(frame) + " but " + path.string() + " has " +
                      std::to_string(volume.frames) + " frame(s), counted from 0");
   place(path, header, volume, progress);
+  return volume;
+}
+
+} // namespace
+
+OpenedVolume open_nrrd(const fs::path& path, std::size_t frame, const Progress& progress) {
+  const NrrdHeader header = parse_nrrd(path);
+  Layout layout;
+  OpenedVolume opened{described(path, header, frame, layout, progress), std::nullopt};
+  if (header.encoding != Encoding::raw)
+    return opened;
+  const std::size_t total = checked_product(layout.total, size_of(opened.volume.type), path.string());
+  RawLayout raw;
+  const bool to_end = frame + 1 == opened.volume.frames || !is_contiguous(layout, opened.volume);
+  raw.pieces = nrrd_pieces(path, header, total, to_end, progress);
+  raw.first = frame * layout.frame;
+  // Axes that the file does not have hold one voxel.
+  raw.step = {layout.voxel[0], layout.voxel[1], layout.voxel[2]};
+  raw.component_step = layout.component;
+  raw.swapped = is_swapped(header);
+  if (!raw.pieces.empty())
+    opened.layout = std::move(raw);
+  return opened;
+}
+
+Volume read_nrrd(const fs::path& path, std::size_t frame, const Progress& progress) {
+  const NrrdHeader header = parse_nrrd(path);
+  Layout layout;
+  Volume volume = described(path, header, frame, layout, progress);
   const std::size_t bytes = voxel_bytes(volume);
   const std::size_t total = checked_product(layout.total, size_of(volume.type), path.string());
   const bool whole =

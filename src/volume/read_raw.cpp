@@ -4,6 +4,7 @@
 #include "volume/readers.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fstream>
 #include <regex>
@@ -56,7 +57,7 @@ std::string remedy_for(const fs::path& path) {
 
 } // namespace
 
-void swap_bytes(std::vector<std::byte>& scalars, std::size_t size) {
+void swap_bytes(std::span<std::byte> scalars, std::size_t size) {
   if (size < 2)
     return;
   for (std::size_t at = 0; at + size <= scalars.size(); at += size)
@@ -64,7 +65,7 @@ void swap_bytes(std::vector<std::byte>& scalars, std::size_t size) {
                  scalars.begin() + static_cast<std::ptrdiff_t>(at + size));
 }
 
-Volume read_raw(const VolumeSource& source, const Progress&) {
+OpenedVolume open_raw(const VolumeSource& source) {
   const fs::path& path = source.file;
   const std::uintmax_t found = require_file(path);
   const NameClaim claim = claim_of_name(path);
@@ -91,14 +92,27 @@ Volume read_raw(const VolumeSource& source, const Progress&) {
                                        " are " + std::to_string(expected) + " bytes but the file has " +
                                        std::to_string(found) + "; correct volume.size or volume.type");
   }
+  volume.format = "raw";
+  const bool big = source.big_endian.value_or(false);
+  RawLayout layout;
+  layout.pieces = {{path, 0, expected}};
+  layout.step = {1, volume.dims[0], std::uintmax_t{volume.dims[0]} * volume.dims[1]};
+  layout.swapped = big != (std::endian::native == std::endian::big);
+  return {std::move(volume), std::move(layout)};
+}
+
+Volume read_raw(const VolumeSource& source, const Progress&) {
+  OpenedVolume opened = open_raw(source);
+  Volume volume = std::move(opened.volume);
+  const fs::path& path = source.file;
+  const std::size_t expected = voxel_bytes(volume);
   check_memory(path, expected);
   volume.voxels.resize(expected);
   std::ifstream in(path, std::ios::binary);
   if (!in.read(reinterpret_cast<char*>(volume.voxels.data()), static_cast<std::streamsize>(expected)))
     throw FileError(path.string(), "cannot be read in full");
-  if (source.big_endian.value_or(false))
+  if (opened.layout->swapped)
     swap_bytes(volume.voxels, size_of(volume.type));
-  volume.format = "raw";
   return volume;
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "core/progress.h"
+#include "volume/raw_layout.h"
 #include "volume/read.h"
 
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace slicelens {
@@ -34,7 +36,12 @@ std::vector<std::filesystem::path> dicom_files(const std::vector<std::filesystem
 Volume read_dicom(const std::vector<std::filesystem::path>& candidates, const std::filesystem::path& named,
                   const VolumeSource& source, const Progress& progress);
 
+/// The headers alone: the volume without voxels, and where these are. Errors and warnings as the readers'.
+OpenedVolume open_nrrd(const std::filesystem::path& path, std::size_t frame, const Progress& progress);
+OpenedVolume open_meta(const std::filesystem::path& path, std::size_t frame, const Progress& progress);
+OpenedVolume open_raw(const VolumeSource& source);
+
 /// Reverses the bytes of every scalar of `size` bytes.
-void swap_bytes(std::vector<std::byte>& scalars, std::size_t size);
+void swap_bytes(std::span<std::byte> scalars, std::size_t size);
 
 } // namespace slicelens

@@ -53,6 +53,15 @@ Digest digest_of(const fs::path& path) {
   return hash.finish();
 }
 
+std::string hexadecimal(const Digest& digest) {
+  std::string text;
+  for (const unsigned char byte : digest) {
+    text += "0123456789abcdef"[byte >> 4];
+    text += "0123456789abcdef"[byte & 15];
+  }
+  return text;
+}
+
 } // namespace
 
 std::string sha256_of(const std::vector<fs::path>& files) {
@@ -67,12 +76,13 @@ std::string sha256_of(const std::vector<fs::path>& files) {
     }
     digest = all.finish();
   }
-  std::string text;
-  for (const unsigned char byte : digest) {
-    text += "0123456789abcdef"[byte >> 4];
-    text += "0123456789abcdef"[byte & 15];
-  }
-  return text;
+  return hexadecimal(digest);
+}
+
+std::string sha256_of_text(const std::string& text) {
+  Hash hash;
+  hash.add(text.data(), text.size());
+  return hexadecimal(hash.finish());
 }
 
 } // namespace slicelens

@@ -121,4 +121,10 @@ TransferFunction preset(const std::string& name, double data_min = 0, double dat
 /// translucent. Deterministic; large volumes are subsampled on a fixed stride.
 TransferFunction automatic_transfer(const Volume& volume);
 
+/// The stride above, in voxels, of a volume of so many.
+std::size_t transfer_stride(std::size_t voxels);
+
+/// The values of component 0 on that stride that a knot may have, in the voxels' order.
+std::vector<double> transfer_samples(const Volume& volume);
+
 } // namespace slicelens

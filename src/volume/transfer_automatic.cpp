@@ -1,4 +1,5 @@
 // The transfer function that is used when none is given.
+#include "volume/streamed.h"
 #include "volume/transfer.h"
 
 #include <algorithm>
@@ -14,25 +15,17 @@ constexpr std::size_t kBins = 1024;
 constexpr std::size_t kMaxLabels = 64;
 
 struct Samples {
-  std::vector<double> values; ///< values of component 0 that a knot may have, on a fixed stride
+  std::vector<double> values; ///< transfer_samples
   std::set<double> distinct;  ///< at most kMaxLabels + 1 of them
 };
 
 Samples sample_values(const Volume& volume) {
-  const std::size_t voxels = voxel_count(volume);
-  const auto components = static_cast<std::size_t>(volume.components);
-  // About a million samples place every percentile below to a thousandth. The stride is odd, so that it does
-  // not walk along one column of a power-of-two grid.
-  const std::size_t stride = (voxels >> 20) | 1;
   Samples samples;
-  samples.values.reserve(voxels / stride + 1);
-  for (std::size_t i = 0; i < voxels; i += stride) {
-    const double value = scalar_at(volume, i * components);
-    if (!(std::abs(value) <= kMaxTransferValue))
-      continue;
-    samples.values.push_back(value);
-    if (samples.distinct.size() <= kMaxLabels)
-      samples.distinct.insert(value);
+  samples.values = is_streamed(volume) ? volume.streamed->samples : transfer_samples(volume);
+  for (const double value : samples.values) {
+    if (samples.distinct.size() > kMaxLabels)
+      break;
+    samples.distinct.insert(value);
   }
   return samples;
 }
@@ -107,6 +100,26 @@ TransferFunction label_transfer(const std::set<double>& labels) {
 bool is_integer(ScalarType type) { return type != ScalarType::f32 && type != ScalarType::f64; }
 
 } // namespace
+
+std::size_t transfer_stride(std::size_t voxels) {
+  // About a million samples place every percentile below to a thousandth. The stride is odd, so that it does
+  // not walk along one column of a power-of-two grid.
+  return (voxels >> 20) | 1;
+}
+
+std::vector<double> transfer_samples(const Volume& volume) {
+  const std::size_t voxels = voxel_count(volume);
+  const auto components = static_cast<std::size_t>(volume.components);
+  const std::size_t stride = transfer_stride(voxels);
+  std::vector<double> samples;
+  samples.reserve(voxels / stride + 1);
+  for (std::size_t i = 0; i < voxels; i += stride) {
+    const double value = scalar_at(volume, i * components);
+    if (std::abs(value) <= kMaxTransferValue)
+      samples.push_back(value);
+  }
+  return samples;
+}
 
 TransferFunction automatic_transfer(const Volume& volume) {
   Samples samples = sample_values(volume);

@@ -2,6 +2,8 @@
 // whole and small, so that single changed bytes reach deep into the readers.
 #include "deflated.h"
 
+#include <zlib.h>
+
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -36,6 +38,26 @@ void put(std::string& bytes, std::size_t offset, T value) {
 const std::string& voxels() {
   static const std::string bytes = bytes_of(std::vector<std::int16_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
   return bytes;
+}
+
+std::string listed(const std::string& bytes, std::size_t count) {
+  return bytes_of(std::vector<std::uint64_t>{count}) + bytes;
+}
+
+/// A header of 3 x 2 x 2 shorts behind one brick of 24 bytes of 0, as tests/fuzz/bricks.cpp takes it.
+void bricks() {
+  const std::string voxel_bytes(24, '\0');
+  const auto checksum =
+      static_cast<std::uint32_t>(::crc32(0, reinterpret_cast<const Bytef*>(voxel_bytes.data()), 24));
+  const std::string header =
+      listed("a.nrrd", 6) + listed("abc", 3) + listed("frame 0", 7) +
+      bytes_of(std::vector<std::uint64_t>{3, 2, 2}) + '\3' +
+      bytes_of(std::vector<double>{1, 1, 2, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) +
+      bytes_of(std::vector<std::uint64_t>{1}) + listed("NRRD", 4) + '\1' +
+      listed(bytes_of(std::vector<std::uint32_t>{checksum}), 1) + bytes_of(std::vector<double>{0, 0, 0}) +
+      bytes_of(std::vector<std::uint64_t>{0, 2}) + listed(bytes_of(std::vector<float>{0}), 1) +
+      listed(bytes_of(std::vector<float>{0}), 1) + listed(bytes_of(std::vector<double>(12, 0.0)), 12);
+  seed("bricks", "header", '\1' + bytes_of(std::vector<std::uint64_t>{88}) + header);
 }
 
 void nrrd() {
@@ -307,6 +329,7 @@ int main(int count, char** words) {
   if (count != 2)
     return 2;
   root = words[1];
+  bricks();
   nrrd();
   meta();
   nifti();

@@ -3,32 +3,17 @@
 #include "gl_fixture.h"
 #include "study/skip_equality.h"
 
-#include <algorithm>
 #include <set>
 
 using namespace slicelens;
 namespace fs = std::filesystem;
 
-namespace {
-
-std::vector<fs::path> scene_files() {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(SLICELENS_SOURCE_DIR) / "scenes")) {
-    if (entry.path().extension() == ".json")
-      files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-} // namespace
-
 TEST_CASE("every scene shows the same with samples left out", "[one-driver]") {
   OpenContext context;
   std::set<std::string> ways; // that were drawn and left something out
-  for (const fs::path& file : scene_files()) {
+  for (const fs::path& file : volume_scenes(fs::path(SLICELENS_SOURCE_DIR) / "scenes")) {
     INFO(file.string());
-    for (const SkipDifference& difference : skip_differences(context, small_scene(file, 48, 40))) {
+    for (const SkipDifference& difference : skip_differences(context, small_scene(file, 96, 40))) {
       INFO(difference.way << ": largest " << difference.largest << ", over 1/255 " << difference.over);
       if (!difference.refused.empty())
         continue;

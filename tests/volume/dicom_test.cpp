@@ -1,3 +1,4 @@
+#include "streamed_files.h"
 #include "volume_files.h"
 
 #include <cmath>
@@ -282,4 +283,82 @@ TEST_CASE("frames of an enhanced DICOM file are slices by their own positions") 
   CHECK(contains(refusal(folder / "a.dcm"), "uneven slice distances"));
   write_bytes(folder / "a.dcm", enhanced({"5\\8\\7", "5\\10\\7"}, {upright, "1\\0\\0\\0\\1\\0"}));
   CHECK(contains(refusal(folder / "a.dcm"), "different Image Orientations"));
+}
+
+TEST_CASE("a DICOM series is streamed slice by slice as it is read") {
+  const CacheFolder cache;
+  const TemporaryFolder folder;
+  write_series(folder, 12, 1.25);
+  check_streams(source_for(folder.path()));
+  check_streams(source_for(folder / "1.2.3.1_7.dcm"));
+  VolumeSource source = source_for(folder.path());
+  source.spacing = glm::dvec3(1, 2, 3);
+  check_streams(source);
+  // The scan is kept: the second time not a slice is read.
+  CHECK(stream_volume(source)->streamed->stream->bytes_read() == 0);
+}
+
+TEST_CASE("DICOM slices of several types are streamed in the type that holds all") {
+  struct Kind {
+    const char* slope;
+    std::int16_t pixel;
+  };
+  // Whole numbers of 16 bits, fractions, and whole numbers that need 32 bits.
+  const std::vector<std::vector<Kind>> series = {{{"1", 5}, {"0.5", 7}, {"1", 3}},
+                                                 {{"1", 5}, {"100", 30000}, {"1", 3}},
+                                                 {{"100", 30000}, {"0.25", 9}, {"1", 3}},
+                                                 {{"0.5", 5}, {"0.5", 6}}};
+  for (const std::vector<Kind>& kinds : series) {
+    const CacheFolder cache;
+    const TemporaryFolder folder;
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      Slice s;
+      s.instance = "1.2.3.1." + std::to_string(k + 1);
+      s.position = "0\\0\\" + std::to_string(k);
+      s.slope = kinds[k].slope;
+      s.intercept = "0";
+      s.pixels.assign(6, kinds[k].pixel);
+      s.pixels[1] = static_cast<std::int16_t>(k);
+      write_bytes(folder / (std::to_string(k) + ".dcm"), dicom(s));
+    }
+    check_streams(source_for(folder.path()));
+    check_streams(source_for(folder.path())); // with the type that was kept
+  }
+}
+
+TEST_CASE("a DICOM slice that shrinks or vanishes while it is streamed is refused") {
+  const CacheFolder cache;
+  const TemporaryFolder folder;
+  write_series(folder, 5, 1);
+  const auto streamed = stream_volume(source_for(folder.path()));
+  REQUIRE(streamed);
+  const auto again = stream_volume(source_for(folder.path()));
+  // The scan left all slices of the first in memory; the second has read none.
+  const fs::path file = folder / "1.2.3.1_3.dcm";
+  fs::resize_file(file, fs::file_size(file) - 4);
+  CHECK(contains(error_of([&] { crop(*again, {0, 0, 2}, {3, 2, 1}); }), "1.2.3.1_3.dcm: became shorter"));
+  fs::remove(file);
+  CHECK(contains(error_of([&] { crop(*again, {0, 0, 2}, {3, 2, 1}); }), "cannot be read"));
+  CHECK(crop(*again, {0, 0, 0}, {3, 2, 2}).voxels.size() == 24);
+}
+
+TEST_CASE("the real DICOM series are streamed as they are read") {
+  const CacheFolder cache;
+  const fs::path real = fs::path(SLICELENS_SOURCE_DIR) / ".." / "shared" / "volumes";
+  if (!fs::exists(real)) {
+    std::puts("SKIPPED: no real volumes");
+    return;
+  }
+  std::size_t count = 0;
+  for (const char* name : {"ct_chest_large", "ct_head_gantry_tilt", "mri_head_dicom"}) {
+    const VolumeSource source = source_for(real / name);
+    std::optional<VolumeOutline> outline;
+    const std::string problem = error_of([&] { outline = outline_of(source); });
+    if (!problem.empty() || !outline || !outline->streams)
+      continue;
+    CAPTURE(name);
+    check_streams(source);
+    ++count;
+  }
+  CHECK(count >= 2);
 }

@@ -42,17 +42,11 @@ void skip_section(const Bench&) {
   namespace fs = std::filesystem;
   std::cout << "## Samples left out: every scene of scenes/, at most " << kPixels << " pixels and " << kVoxels
             << " voxels on an edge\n\n";
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(SLICELENS_SCENES_DIR)) {
-    if (entry.path().extension() == ".json")
-      files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
   OpenContext context;
   std::map<std::string, Way> ways;
   std::map<std::string, std::vector<std::string>> refusals;
   std::vector<std::string> over;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : volume_scenes(SLICELENS_SCENES_DIR)) {
     const std::string scene = file.parent_path().filename().string() + "/" + file.stem().string();
     say(scene);
     for (const SkipDifference& difference : skip_differences(context, small_scene(file, kPixels, kVoxels))) {

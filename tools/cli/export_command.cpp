@@ -8,7 +8,8 @@
 namespace slicelens::cli {
 
 void run_export(const ExportOptions& options) {
-  const SceneInput input = scene_input(options.input, options.set);
+  SceneInput input = scene_input(options.input, options.set);
+  hold_voxels(input, "slicelens export");
   require_exportable(input.scene); // before the data are read
   const PreparedScene prepared = load(input, console_progress());
   write_export(prepared, options.folder);

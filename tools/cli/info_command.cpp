@@ -3,17 +3,44 @@
 #include "options.h"
 #include "scene/load.h"
 #include "study/inputs.h"
+#include "volume/on_disk.h"
 #include "volume/read.h"
 
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <utility>
 
 namespace slicelens::cli {
+
+namespace {
+
+/// Files from this size on are described without being held in memory, where their format allows it.
+constexpr std::uintmax_t large_file = std::uintmax_t{1} << 30;
+
+Volume volume_for(const SceneInput& input) {
+  const VolumeSource source = source_of(input.scene.volume, input.folders);
+  const VolumeAccess access = input.scene.volume.access;
+  if (access == VolumeAccess::stream || access == VolumeAccess::cache)
+    return load_volume(input.scene.volume, input.folders, console_progress());
+  std::uintmax_t bytes = 0;
+  for (const std::filesystem::path& file : files_of(source))
+    bytes += std::filesystem::file_size(file);
+  if (access == VolumeAccess::automatic && bytes > large_file) {
+    if (std::optional<Volume> streamed = stream_volume(source, console_progress()))
+      return std::move(*streamed);
+  }
+  return read_volume(source, console_progress());
+}
+
+} // namespace
 
 void run_info(const InfoOptions& options) {
   std::vector<std::string> set = {"volume.file=" + options.input};
   set.insert(set.end(), options.set.begin(), options.set.end());
   const SceneInput input = scene_text_input("{}", options.input, set);
-  const Volume volume = read_volume(source_of(input.scene.volume, input.folders), console_progress());
+  const Volume volume = volume_for(input);
   end_progress();
   if (options.json) {
     std::printf("%s\n", volume_json(volume).c_str());

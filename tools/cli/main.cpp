@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -103,6 +104,8 @@ int main(int argc, char** argv) {
   using namespace slicelens;
   cli::fill_closed_streams();
   keep_freed_memory();
+  std::signal(SIGXFSZ,
+              SIG_IGN); // a file that the user's limit cuts short is an error of writing, not the end
   try {
     return cli::run_program(argc, argv);
   } catch (const UsageError& error) {

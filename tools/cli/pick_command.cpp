@@ -80,6 +80,7 @@ bool is_warped_scene(const Scene& scene) {
 
 void run_pick(const PickOptions& options) {
   SceneInput input = scene_input(options.input, options.set);
+  hold_voxels(input, "slicelens pick");
   const auto& size = input.scene.render.size;
   const double x = options.at[0];
   const double y = options.at[1];

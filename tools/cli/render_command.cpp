@@ -5,6 +5,7 @@
 #include "scene/names.h"
 #include "scene/scene_json.h"
 #include "study/inputs.h"
+#include "study/sweep/machine.h"
 
 #include <chrono>
 #include <cstdio>
@@ -90,6 +91,14 @@ void print_verbose(const RenderResult& result, const PreparedScene& prepared, do
   if (result.volume_textures > 1)
     std::fprintf(stderr, "           in %zu textures; one of full resolution would take %.1f MiB\n",
                  result.volume_textures, static_cast<double>(result.whole_texture_bytes) / (1 << 20));
+  for (const PoolCounts& pool : result.pools) {
+    std::fprintf(
+        stderr,
+        "bricks     %zu of %zu pages needed, a pool of %zu bricks, %zu loaded in %zu parts, %.1f MiB "
+        "read from disk\n",
+        pool.needed, pool.pages, pool.capacity, pool.loads, pool.parts,
+        static_cast<double>(pool.read_bytes) / (1 << 20));
+  }
   if (result.slices > 0)
     std::fprintf(stderr, "slices     %zu, %zu triangles, %zu draw calls\n", result.slices, result.triangles,
                  result.draw_calls);
@@ -114,6 +123,8 @@ void print_verbose(const RenderResult& result, const PreparedScene& prepared, do
   if (t.gpu_draw)
     std::fprintf(stderr, "  (driver's timer %.3f s)", *t.gpu_draw);
   std::fprintf(stderr, "\nread       %8.3f s\nwrite      %8.3f s\n", t.read, write);
+  if (const std::size_t peak = peak_memory())
+    std::fprintf(stderr, "memory     %8.1f MiB at most\n", static_cast<double>(peak) / (1 << 20));
 }
 
 } // namespace

@@ -10,7 +10,8 @@
 namespace slicelens::cli {
 
 void run_warp(const WarpOptions& options) {
-  const SceneInput input = scene_input(options.input, options.set);
+  SceneInput input = scene_input(options.input, options.set);
+  hold_voxels(input, "slicelens warp");
   const std::size_t index = checked_volume(input.scene, options.volume);
   const Progress progress = console_progress();
   PreparedScene all = load(input, progress);

@@ -95,7 +95,10 @@ const std::map<std::string, std::string>& explanations() {
       {"samples_per_s", "samples taken, by the median time of drawing"},
       {"of_limit", "fragments a second, as a fraction of this machine's classified fill"},
       {"peak_bytes", "largest memory of the process while it drew the picture"},
-      {"texture_bytes", "memory of the textures"}};
+      {"texture_bytes", "memory of the textures"},
+      {"brick_parts", "times that bricks were asked for in one picture"},
+      {"bricks_loaded", "bricks brought into the pool for one picture"},
+      {"read_bytes", "bytes taken from the volume's file for one picture"}};
   return all;
 }
 

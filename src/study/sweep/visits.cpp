@@ -172,6 +172,17 @@ DrawnPicture Visitor::State::draw_volume(const SceneInput& input, const Progress
   }
   count("texture_bytes", static_cast<double>(result.texture_bytes));
   count("peak_bytes", peak);
+  if (!result.pools.empty()) {
+    PoolCounts all;
+    for (const PoolCounts& pool : result.pools) {
+      all.parts += pool.parts;
+      all.loads += pool.loads;
+      all.read_bytes += pool.read_bytes;
+    }
+    count("brick_parts", static_cast<double>(all.parts));
+    count("bricks_loaded", static_cast<double>(all.loads));
+    count("read_bytes", static_cast<double>(all.read_bytes));
+  }
   drawn.texts = {{"renderer", result.renderer},
                  {"gl_version", result.version},
                  {"context", result.context},
