@@ -20,8 +20,8 @@ namespace slicelens {
 
 namespace {
 
-/// Texture unit of the occupied cells: behind those of labels, of a pyramid's levels, beside which render.skip
-/// is refused.
+/// Texture unit of the occupied cells: behind those of labels, of a pyramid's levels, beside which
+/// render.skip is refused.
 constexpr GLenum occupancy_unit = 6;
 
 double ray_end_opacity(const PreparedScene& prepared) {

@@ -33,8 +33,8 @@ glm::dvec2 value_from_unit(const PreparedScene& prepared) {
   return {1 / forward.x, -forward.y / forward.x};
 }
 
-/// Texture unit of what is gathered, read between passes: behind those of labels, of a pyramid's levels, beside
-/// which render.skip is refused.
+/// Texture unit of what is gathered, read between passes: behind those of labels, of a pyramid's levels,
+/// beside which render.skip is refused.
 constexpr GLenum marks_unit = 6;
 
 /// Under MIP the winning sample keeps its own highlight and attenuation, which the largest of each channel
