@@ -74,7 +74,11 @@ TEST_CASE("skipping keeps surfaces that samples step over", "[one-driver]") {
   check_skipping(halves, iso(1000), no_hidden);
 }
 
-TEST_CASE("skipping changes nothing: segments integrated beforehand") {
+TEST_CASE("skipping changes nothing: segments") {
+  check_skipping(head_scene(), {"render.classification=preintegrated"});
+}
+
+TEST_CASE("skipping changes nothing: segments under all functions, steps, warps that cut", "[one-driver]") {
   const std::string segments = "render.classification=preintegrated";
   check_functions({segments});
   check_functions({segments, "render.spacing=4", "render.shading=diffuse"});
@@ -93,7 +97,7 @@ TEST_CASE("skipping changes nothing: segments of rays", "[one-driver]") {
   check_skipping(head_scene(), with(segments, {fisheye}));
 }
 
-TEST_CASE("skipping keeps what shows only between samples") {
+TEST_CASE("skipping keeps what shows only between samples", "[one-driver]") {
   // A band that no voxel has, between two halves that show nothing: segments alone know it.
   const PreparedScene halves = small_scene(tent(500), [](int, int j, int) { return j < 12 ? 0 : 1000; });
   for (const std::string pipeline : {"slices", "rays"}) {
@@ -108,13 +112,12 @@ TEST_CASE("skipping keeps what shows only between samples") {
 }
 
 TEST_CASE("skipping changes nothing: voxels classified beforehand") {
-  check_functions({"render.classification=pre", "render.opacity_correction=frame"});
+  check_skipping(head_scene(), {"render.classification=pre", "render.opacity_correction=frame"});
   check_skipping(head_scene(), {"render.classification=pre", "render.opacity_correction=frame",
                                 "render.pipeline=fragment", twist});
 }
 
 TEST_CASE("skipping changes nothing: labels") {
-  check_skipping(frog_scene(), {});
   check_skipping(frog_scene(), {"render.shading=phong", "render.filter=linear-exact"});
   check_skipping(frog_scene(), {"render.pipeline=fragment", twist}, outlines);
   CHECK(changed(frog_scene(), {"render.skip=empty"}).skipping.empty);
@@ -129,7 +132,8 @@ TEST_CASE("skipping changes nothing: labels, some of them as a whole", "[one-dri
   }
 }
 
-TEST_CASE("skipping changes nothing: maps of single axes, lenses that cut, landmarks, all grids") {
+TEST_CASE("skipping changes nothing: maps of single axes, lenses that cut, landmarks, all grids",
+          "[one-driver]") {
   const std::vector<std::vector<std::string>> warped = {
       {"render.pipeline=axis", fisheye},
       {"render.pipeline=axis", fisheye, "render.axis_filter=nearest", "render.axis_texels=16"},
