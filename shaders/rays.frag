@@ -60,6 +60,15 @@ vec4 first_surface(PixelRay ray, int first, int last, float offset) {
   float before_value = 0.0;
   vec3 before = vec3(0.0);
   for (int k = first; k <= last; ++k) {
+#ifdef OCCUPANCY
+    // From sample next − 1 to `next` there may be one. Where samples were passed over the first of the two is looked at anew.
+    int next = next_between(ray, k, last, offset - 1.0);
+    if (next > last) break;
+    if (next > k) {
+      k = next - 1;
+      had = false;
+    }
+#endif
     vec3 p = ray_point(ray, float(k) + offset);
     vec3 t = shown_point(p);
     bool has = shows_data(t);
@@ -148,9 +157,18 @@ void main() {
     float front = end_texel(ray_point(ray, float(first) - 0.5));
 #endif
     for (int k = first; k <= last; ++k) {
-#ifdef OCCUPANCY
-      k = next_occupied(ray, k, last, offset);
-      if (k > last) break;
+#if defined(OCCUPANCY) && defined(PREINTEGRATED)
+      int next = next_between(ray, k, last, -0.5);
+      if (next > last) break;
+      front = front_after(ray, next, next > k, front);
+      k = next;
+#elif defined(OCCUPANCY)
+      int next = next_occupied(ray, k, last, offset);
+      if (next > last) break;
+#ifdef LOCAL_MODES
+      if (next > k) state = ended_run(state, xray_scale);  // what was passed over is no part of it
+#endif
+      k = next;
 #endif
       vec3 p = ray_point(ray, float(k) + offset);
 #if defined(LOCAL_MODES)

@@ -110,17 +110,15 @@ void upload_occupancy(const gl::Functions& gl, const PreparedScene& prepared, Gp
   const RenderSettings& render = prepared.scene.render;
   if (!prepared.skipping.empty || render.pipeline != Pipeline::rays)
     return;
-  Occupancy occupancy = occupancy_of(prepared);
-  for (std::uint8_t& cell : occupancy.shows)
-    cell = cell > 0 ? 255 : 0;
+  const Occupancy occupancy = occupancy_of(prepared);
   gl::TextureSpec spec;
   spec.format = GL_R8;
   spec.filter = GL_NEAREST;
   const auto& size = occupancy.size;
   scene.occupancy = gl::make_texture_3d(
       gl, spec, {static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])},
-      std::as_bytes(std::span(occupancy.shows)));
-  scene.bytes += occupancy.shows.size();
+      std::as_bytes(std::span(occupancy.stretches)));
+  scene.bytes += occupancy.stretches.size();
 }
 
 } // namespace

@@ -20,8 +20,9 @@ namespace slicelens {
 
 namespace {
 
-/// Texture unit of the occupied cells: that of MIP's maxima, which rays do not have.
-constexpr GLenum occupancy_unit = 2;
+/// Texture unit of the occupied cells: behind those of labels, of a pyramid's levels, beside which
+/// render.skip is refused.
+constexpr GLenum occupancy_unit = 6;
 
 double ray_end_opacity(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;

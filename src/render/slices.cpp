@@ -33,8 +33,9 @@ glm::dvec2 value_from_unit(const PreparedScene& prepared) {
   return {1 / forward.x, -forward.y / forward.x};
 }
 
-/// Texture unit of what is gathered, read between passes: that of MIP's maxima, which has nothing hidden.
-constexpr GLenum marks_unit = 2;
+/// Texture unit of what is gathered, read between passes: behind those of labels, of a pyramid's levels,
+/// beside which render.skip is refused.
+constexpr GLenum marks_unit = 6;
 
 /// Under MIP the winning sample keeps its own highlight and attenuation, which the largest of each channel
 /// would mix up: a depth test picks the sample instead.
