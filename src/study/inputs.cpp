@@ -10,6 +10,7 @@
 #include "scene/load_warps.h"
 #include "scene/names.h"
 #include "scene/scene_json.h"
+#include "volume/kept_sha256.h"
 
 #include <algorithm>
 #include <system_error>
@@ -177,7 +178,7 @@ std::future<std::string> start_hash(const SceneInput& input) {
   return std::async(std::launch::async, [volumes] {
     std::string hashes;
     for (const std::vector<fs::path>& files : volumes)
-      hashes += (hashes.empty() ? "" : " ") + (files.empty() ? std::string("-") : sha256_of(files));
+      hashes += (hashes.empty() ? "" : " ") + (files.empty() ? std::string("-") : sha256_of_volume(files));
     return hashes;
   });
 }
