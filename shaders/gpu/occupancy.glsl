@@ -1,25 +1,45 @@
-// Cells of the volume that show nothing under the transfer function (OCCUPANCY; src/render/occupancy.h).
+// Cells of the volume that show nothing under the transfer function (OCCUPANCY; src/render/occupancy_texture.h).
 
 #ifdef OCCUPANCY
-uniform sampler3D occupancy;        // one texel a cell: above 0 where something shows
-uniform vec3 cells_from_texture;    // cells in one unit of texture coordinates, also fractions
+uniform sampler3D occupancy;      // one texel a cell: cells to the nearest one that shows something, by 255; 0: itself
+uniform vec3 cells_from_texture;  // cells in one unit of texture coordinates, also fractions
 
-// The first sample at or after `k` whose cell shows something; last + 1 where there is none. Nothing but the number leaves this
-// loop: on drivers that run pixels side by side it diverges.
+// The first sample at or after `k` whose cell shows something; beyond `last` where there is none. Nothing but the number leaves
+// this loop: on drivers that run pixels side by side it diverges.
+#if defined(AXIS_TABLES) || defined(WARPED)
+// One by one: how far it is in the data says nothing about how far it is on the ray.
 int next_occupied(PixelRay ray, int k, int last, float offset) {
   int at = k;
+  ivec3 top = textureSize(occupancy, 0) - 1;
   for (; at <= last; ++at) {
     vec3 p = ray_point(ray, float(at) + offset);
 #if defined(AXIS_TABLES)
     vec3 t = axis_texture_from_object(fetch_axis_tables(p), p);
-#elif defined(WARPED)
-    vec3 t = texture_from_object(p);
 #else
-    vec3 t = p;
+    vec3 t = texture_from_object(p);
 #endif
-    ivec3 cell = clamp(ivec3(t * cells_from_texture), ivec3(0), textureSize(occupancy, 0) - 1);
-    if (texelFetch(occupancy, cell, 0).r > 0.0) break;
+    if (texelFetch(occupancy, clamp(ivec3(t * cells_from_texture), ivec3(0), top), 0).r == 0.0) break;
   }
   return at;
 }
+#else
+// The cells nearer than the nearest that shows something make a box, which the ray leaves in one leap. Numbers of cells are
+// rounded, but a sample just outside of a cell reads no other voxels than one just inside.
+int next_occupied(PixelRay ray, int k, int last, float offset) {
+  int at = k;
+  vec3 stride = (delta * cells_from_texture) * ray.direction;
+  vec3 start = cells_from_texture * ray.origin + (0.5 + offset) * stride;
+  vec3 inverse = 1.0 / mix(stride, vec3(1e-20), lessThan(abs(stride), vec3(1e-20)));
+  ivec3 top = textureSize(occupancy, 0) - 1;
+  for (; at <= last;) {
+    vec3 place = start + float(at) * stride;
+    vec3 cell = floor(place);
+    float cells = 255.0 * texelFetch(occupancy, clamp(ivec3(cell), ivec3(0), top), 0).r;
+    if (cells == 0.0) break;
+    vec3 ways = (cells - 0.5) * abs(inverse) - (place - cell - 0.5) * inverse;
+    at += int(min(min(ways.x, ways.y), ways.z)) + 1;
+  }
+  return at;
+}
+#endif
 #endif

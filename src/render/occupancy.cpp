@@ -68,8 +68,9 @@ double rounding_of(const PreparedScene& prepared) {
 
 } // namespace
 
-Occupancy occupancy_of(const PreparedScene& prepared) {
-  const CellRanges& cells = *prepared.cells;
+Occupancy occupancy_of(const PreparedScene& prepared) { return occupancy_of(prepared, *prepared.cells); }
+
+Occupancy occupancy_of(const PreparedScene& prepared, const CellRanges& cells) {
   const OpacitySums table = opacity_sums(prepared);
   const Mode mode = prepared.scene.render.mode;
   const double rounding = rounding_of(prepared);
@@ -120,10 +121,10 @@ Skipping skipping_of(const PreparedScene& prepared) {
   return skipping;
 }
 
-CellBox cell_box(const PreparedScene& prepared, std::size_t index) {
-  const auto& size = prepared.cells->size;
+CellBox cell_box(const PreparedScene& prepared, const CellRanges& cells, std::size_t index) {
+  const auto& size = cells.size;
   const auto& dims = prepared.volume.dims;
-  const glm::dvec3 edge = static_cast<double>(cell_edge) / glm::dvec3(dims[0], dims[1], dims[2]);
+  const glm::dvec3 edge = static_cast<double>(cells.edge) / glm::dvec3(dims[0], dims[1], dims[2]);
   const glm::dvec3 at(index % size[0], index / size[0] % size[1], index / size[0] / size[1]);
   return {at * edge, glm::min((at + 1.0) * edge, glm::dvec3(1))};
 }

@@ -23,6 +23,8 @@ struct Occupancy {
 /// value: a ray whose extreme value shows nothing is as empty as one without a sample. Conservative, never
 /// wrong. Needs prepared.cells.
 Occupancy occupancy_of(const PreparedScene& prepared);
+/// The same of other cells of the same volume.
+Occupancy occupancy_of(const PreparedScene& prepared, const CellRanges& cells);
 
 /// Share of occupied cells from which on looking at cells costs more than it saves (docs/skipping.md).
 inline constexpr double too_many_occupied = 0.7;
@@ -34,11 +36,11 @@ inline constexpr double opaque_enough = 1 - 1.0 / 512;
 /// Needs prepared.cells and everything but the view's own geometry.
 Skipping skipping_of(const PreparedScene& prepared);
 
-/// The texture coordinates of cell `index`: its lowest corner and its highest, at most 1.
+/// The texture coordinates of cell `index` of `cells`: its lowest corner and its highest, at most 1.
 struct CellBox {
   glm::dvec3 low{0};
   glm::dvec3 high{1};
 };
-CellBox cell_box(const PreparedScene& prepared, std::size_t index);
+CellBox cell_box(const PreparedScene& prepared, const CellRanges& cells, std::size_t index);
 
 } // namespace slicelens

@@ -79,12 +79,13 @@ std::int64_t pass_of(std::int64_t plane, std::size_t planes_per_pass) {
 PassTiles tiles_of_passes(const PreparedScene& prepared, std::int64_t first, std::int64_t last) {
   const ScreenProjector projector(prepared);
   const std::vector<WarpMap> maps = drawn_maps(prepared);
-  const Occupancy occupancy = occupancy_of(prepared);
+  const CellRanges& cells = *prepared.cells;
+  const Occupancy occupancy = occupancy_of(prepared, cells);
   TileMarker marker(prepared, first, last);
   for (std::size_t i = 0; i < occupancy.shows.size(); ++i) {
     if (occupancy.shows[i] == 0)
       continue;
-    const CellBox cell = cell_box(prepared, i);
+    const CellBox cell = cell_box(prepared, cells, i);
     if (is_cut_away(prepared.data_clip, cell.low, cell.high))
       continue;
     const auto shown = shown_data(prepared, maps, {cell.low, cell.high});

@@ -38,6 +38,7 @@ void set_volume(PreparedScene& prepared, Volume volume) {
   prepared.file_geometry = {prepared.volume.spacing, prepared.volume.origin, prepared.volume.direction};
   prepared.pyramid.clear();
   prepared.cells.reset();
+  prepared.small_cells.reset();
 }
 
 PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer, std::vector<LoadedVolume> others,
@@ -200,6 +201,8 @@ void prepare_cells(PreparedScene& prepared) {
     prepared.cells = prepared.volume.streamed->cells;
   if (!on_disk && (!prepared.cells || prepared.cells->reach != reach))
     prepared.cells = cell_ranges(prepared.volume, reach);
+  if (!on_disk && render.skip != Skip::none && (!prepared.small_cells || prepared.small_cells->reach != reach))
+    prepared.small_cells = cell_ranges(prepared.volume, reach, small_cell_edge);
   if (render.skip != Skip::none)
     prepared.skipping = skipping_of(prepared);
 }
