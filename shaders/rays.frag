@@ -60,6 +60,15 @@ vec4 first_surface(PixelRay ray, int first, int last, float offset) {
   float before_value = 0.0;
   vec3 before = vec3(0.0);
   for (int k = first; k <= last; ++k) {
+#ifdef OCCUPANCY
+    // From sample next − 1 to `next` there may be one. Where samples were passed over the first of the two is looked at anew.
+    int next = next_between(ray, k, last, offset - 1.0);
+    if (next > last) break;
+    if (next > k) {
+      k = next - 1;
+      had = false;
+    }
+#endif
     vec3 p = ray_point(ray, float(k) + offset);
     vec3 t = shown_point(p);
     bool has = shows_data(t);
@@ -150,6 +159,12 @@ void main() {
 #if defined(LOCAL_MODES)
     TwoLevel state = nothing_gathered();
     for (int k = first; k <= last; ++k) {
+#ifdef OCCUPANCY
+      int next = next_occupied(ray, k, last, offset);
+      if (next > last) break;
+      if (next > k) state = ended_run(state, xray_scale);  // what was passed over is no part of it
+      k = next;
+#endif
       state = gather_objects(state, ray_point(ray, float(k) + offset), to_eye);
       gathered = state.gathered;
 #ifdef END_OPACITY
@@ -160,6 +175,12 @@ void main() {
 #elif defined(PREINTEGRATED)
     float front = end_texel(ray_point(ray, float(first) - 0.5));
     for (int k = first; k <= last; ++k) {
+#ifdef OCCUPANCY
+      int next = next_between(ray, k, last, -0.5);
+      if (next > last) break;
+      front = front_after(ray, next, next > k, front);
+      k = next;
+#endif
       float back = end_texel(ray_point(ray, float(k) + 0.5));
       gathered = gather_segment(gathered, ray_point(ray, float(k) + offset), to_eye, vec2(front, back));
       front = back;

@@ -41,7 +41,7 @@ TwoLevel gather_objects(TwoLevel state, vec3 p, vec3 to_eye) {
   return with_object(state, t, p, to_eye, focus, sample_ratio());
 }
 #elif !defined(PREINTEGRATED)
-#if defined(SHADED) && defined(MODE_DVR)
+#if defined(SHADED) && defined(MODE_DVR) && !defined(CLASSIFICATION_PRE)
 // A sample's straight colour and opacity per reference length before any light, at the point p of what is displayed; nothing
 // where the data are cut away.
 vec4 color_without_light(vec3 p) {

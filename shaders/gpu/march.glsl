@@ -3,7 +3,7 @@
 // computes is read but through them.
 
 #if defined(OCCUPANCY) && defined(SHADED) && defined(MODE_DVR) && !defined(MODULATED) && !defined(TRANSFER_2D) && \
-    !defined(ONE_FETCH)
+    !defined(ONE_FETCH) && !defined(CLASSIFICATION_PRE)
 #define SHADE_VISIBLE
 #endif
 

@@ -17,6 +17,16 @@ float end_texel(vec3 p) {
 #endif
 }
 
+#ifdef OCCUPANCY
+// The same at the front of segment k where segments before it were passed over; else `front`, which is its end already. A loop,
+// since no driver need branch.
+float front_after(PixelRay ray, int k, bool passed, float front) {
+  float texel = front;
+  for (int n = passed ? 1 : 0; n > 0; --n) texel = end_texel(ray_point(ray, float(k) - 0.5));
+  return texel;
+}
+#endif
+
 // Associated colour. `ends`: texels in front and behind; `t`: where the data of the middle is looked at, `p`: where it is
 // shown; `focus`: attenuation and highlight there; `stretch`: length of the segment by that of the table's.
 vec4 segment_color(vec2 ends, vec3 t, vec3 p, vec3 to_eye, vec2 focus, float stretch) {

@@ -1,6 +1,7 @@
 #include "render/brick_pool.h"
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "render/brick_filling.h"
 #include "render/gpu_scene.h"
 #include "volume/streamed.h"
@@ -20,14 +21,25 @@ constexpr float absent = 2e9F;
 /// Bytes of texels that are made before they are handed to the driver.
 constexpr std::size_t staged_bytes = std::size_t{64} << 20;
 
-/// Bricks on each axis of a texture of at least `count`, edges of at most `limit`, close to a cube.
-std::array<int, 3> arranged(std::size_t count, int limit) {
-  const auto up = [](double x) { return static_cast<int>(std::ceil(x - 1e-9)); };
-  std::array<int, 3> along{};
-  along[0] = std::clamp(up(std::cbrt(static_cast<double>(count))), 1, limit);
-  along[1] = std::clamp(up(std::sqrt(static_cast<double>(count) / along[0])), 1, limit);
-  along[2] = std::clamp(up(static_cast<double>(count) / along[0] / along[1]), 1, limit);
-  return along;
+/// Bricks on each axis of a texture: of those with room for `wanted` the smallest, or with the room that
+/// there is for `most` the largest; at most `limit` on an axis.
+std::array<int, 3> arranged(std::size_t wanted, std::size_t most, int limit) {
+  std::array<int, 3> best{1, 1, 1};
+  std::size_t best_count = 1;
+  for (int x = 1; x <= limit; ++x) {
+    for (int y = 1; y <= x; ++y) {
+      const auto plane = static_cast<std::size_t>(x) * static_cast<std::size_t>(y);
+      const std::size_t depth =
+          std::min({(wanted + plane - 1) / plane, most / plane, static_cast<std::size_t>(limit)});
+      const std::size_t count = plane * depth;
+      const bool better = best_count < wanted ? count > best_count : count >= wanted && count < best_count;
+      if (depth > 0 && better) {
+        best = {x, y, static_cast<int>(depth)};
+        best_count = count;
+      }
+    }
+  }
+  return best;
 }
 
 std::size_t product(const std::array<int, 3>& n) {
@@ -70,9 +82,7 @@ void BrickPool::make_textures(const PreparedScene& prepared, std::size_t wanted)
   if (most < 1)
     throw LimitError("a brick of " + std::to_string(edge) + " voxels an edge is larger than this driver's " +
                      std::to_string(limit) + "; make render.brick smaller");
-  slots_along_ = arranged(std::min(wanted, budget / brick_bytes), most);
-  while (slots_along_[2] > 1 && product(slots_along_) * brick_bytes > budget)
-    --slots_along_[2];
+  slots_along_ = arranged(std::min(wanted, budget / brick_bytes), budget / brick_bytes, most);
   std::array<int, 3> size{};
   for (std::size_t axis = 0; axis < 3; ++axis)
     size[axis] = slots_along_[axis] * static_cast<int>(edge);
@@ -118,6 +128,7 @@ PoolCounts BrickPool::counts() const {
   counts.capacity = slots_.size();
   counts.parts = static_cast<std::size_t>(calls_);
   counts.loads = loads_;
+  counts.seconds = seconds_;
   counts.read_bytes = read_bytes_;
   const std::size_t edge = brick_edge(grid_);
   counts.texture_bytes = slots_.size() * edge * edge * edge * (texel_bytes_ + (labels_ ? 1 : 0)) +
@@ -233,6 +244,7 @@ void BrickPool::load(const PreparedScene& prepared, std::span<const std::uint32_
 }
 
 void BrickPool::require(const PreparedScene& prepared, std::span<const std::uint32_t> pages) {
+  const Stopwatch watch;
   const std::vector<std::uint32_t> slots = assign(pages);
   try {
     load(prepared, slots);
@@ -243,14 +255,15 @@ void BrickPool::require(const PreparedScene& prepared, std::span<const std::uint
     }
     throw;
   }
-  if (!table_changed_)
-    return;
-  gl::TextureSpec spec;
-  spec.format = GL_RGBA32F;
-  const auto size = [&](std::size_t axis) { return static_cast<int>(table_size_[axis]); };
-  gl::update_texture_3d(*gl_, table_, spec, {0, 0, 0}, {size(0), size(1), size(2)},
-                        std::as_bytes(std::span(entries_)));
-  table_changed_ = false;
+  if (table_changed_) {
+    gl::TextureSpec spec;
+    spec.format = GL_RGBA32F;
+    const auto size = [&](std::size_t axis) { return static_cast<int>(table_size_[axis]); };
+    gl::update_texture_3d(*gl_, table_, spec, {0, 0, 0}, {size(0), size(1), size(2)},
+                          std::as_bytes(std::span(entries_)));
+    table_changed_ = false;
+  }
+  seconds_ += watch.seconds();
 }
 
 void BrickPool::bind(const gl::Functions& gl, const gl::Uniforms& program, GLenum voxel_unit,

@@ -22,6 +22,7 @@ struct PoolCounts {
   std::size_t capacity = 0;      ///< bricks that it holds at once
   std::size_t parts = 0;         ///< times that pages were asked for
   std::size_t loads = 0;         ///< bricks loaded, one that was dropped and came back twice
+  double seconds = 0;            ///< of wall clock that loading took, a part of drawing
   std::uint64_t read_bytes = 0;  ///< taken from the volume's file
   std::size_t texture_bytes = 0; ///< of the pool and its table
 };
@@ -80,6 +81,7 @@ private:
   std::vector<std::uint32_t> slot_of_; ///< of each page
   std::uint64_t calls_ = 0;
   std::size_t loads_ = 0;
+  double seconds_ = 0;
   std::uint64_t read_before_ = 0;
   std::uint64_t read_bytes_ = 0;
 };

@@ -139,6 +139,7 @@ void make_rows(PreparedScene& prepared, const Volume& labels, const Walk& walk, 
   PreparedLabels& own = prepared.labels;
   const RowOf row_of(own.named);
   own.rows.assign(voxel_count(prepared.volume), 0);
+  own.in_cells.clear();
   const bool whole = visit_scalar_type(labels.type, [&](auto* tag) {
     using T = std::remove_pointer_t<decltype(tag)>;
     return rows_of(reinterpret_cast<const T*>(labels.voxels.data()), walk, prepared.volume.dims, row_of,
@@ -184,6 +185,37 @@ void prepare_labels(PreparedScene& prepared) {
   for (std::size_t i = 0; i < scene.labels.size(); ++i)
     own.table.push_back(
         row_of_label(prepared, scene.labels[i], i < transfers.size() ? transfers[i] : std::nullopt));
+}
+
+void prepare_label_cells(PreparedScene& prepared) {
+  PreparedLabels& own = prepared.labels;
+  if (own.table.empty() || !own.in_cells.empty())
+    return;
+  const auto& dims = prepared.volume.dims;
+  std::array<std::size_t, 3> cells{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    cells[axis] = (dims[axis] + cell_edge - 1) / cell_edge;
+  own.in_cells.resize(cells[0] * cells[1] * cells[2]);
+  // Every voxel belongs to its cell, and to the next one where it lies beside its face.
+  const auto cells_of = [](std::size_t voxel, std::size_t count) {
+    return std::array{(voxel - std::min<std::size_t>(voxel, 1)) / cell_edge,
+                      std::min((voxel + 1) / cell_edge, count - 1)};
+  };
+  tbb::parallel_for(std::size_t{0}, cells[2], [&](std::size_t c) {
+    const std::size_t begin = c * cell_edge - std::min<std::size_t>(c, 1);
+    const std::size_t end = std::min((c + 1) * cell_edge + 1, dims[2]);
+    for (std::size_t row = begin * dims[1]; row < end * dims[1]; ++row) {
+      const auto y = cells_of(row % dims[1], cells[1]);
+      for (std::size_t i = 0; i < dims[0]; ++i) {
+        const std::uint8_t label = own.rows[row * dims[0] + i];
+        const auto x = cells_of(i, cells[0]);
+        for (std::size_t b = y[0]; b <= y[1]; ++b) {
+          for (std::size_t a = x[0]; a <= x[1]; ++a)
+            own.in_cells[(c * cells[1] + b) * cells[0] + a].set(label);
+        }
+      }
+    }
+  });
 }
 
 bool has_local_modes(const PreparedLabels& labels) {

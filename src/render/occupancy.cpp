@@ -1,10 +1,12 @@
 #include "render/occupancy.h"
 
 #include "render/gpu_scene.h"
+#include "volume/segment_table.h"
 #include "volume/transfer_2d.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace slicelens {
@@ -25,6 +27,13 @@ OpacitySums sums_of(double first, double last, const std::vector<bool>& opaque) 
   return result;
 }
 
+OpacitySums sums_of(const TransferTable& table) {
+  std::vector<bool> opaque(table.rgba.size() / 4);
+  for (std::size_t i = 0; i < opaque.size(); ++i)
+    opaque[i] = table.rgba[4 * i + 3] > 0;
+  return sums_of(table.first, table.last, opaque);
+}
+
 /// Of the table that the GPU reads. One of value and gradient counts as opaque where any gradient is.
 OpacitySums opacity_sums(const PreparedScene& prepared) {
   const Volume& volume = prepared.volume;
@@ -36,11 +45,7 @@ OpacitySums opacity_sums(const PreparedScene& prepared) {
       opaque[i % width] = opaque[i % width] || table.rgba[4 * i + 3] > 0;
     return sums_of(table.first.x, table.last.x, opaque);
   }
-  const TransferTable table = drawn_table(prepared);
-  std::vector<bool> opaque(table.rgba.size() / 4);
-  for (std::size_t i = 0; i < opaque.size(); ++i)
-    opaque[i] = table.rgba[4 * i + 3] > 0;
-  return sums_of(table.first, table.last, opaque);
+  return sums_of(drawn_table(prepared));
 }
 
 /// Whether a linearly filtered look-up at any value of [low, high] may read an opaque texel. A hundredth of a
@@ -68,20 +73,130 @@ double rounding_of(const PreparedScene& prepared) {
 
 } // namespace
 
+namespace {
+
+constexpr double infinity = 1e300; // clamped to a table's ends, and no NaN by any product
+
+/// Values [low, high] that show nothing.
+struct Stretch {
+  double low = -infinity;
+  double high = infinity;
+};
+
+/// The longest stretches without opacity, in ascending order. Where the function jumps at a value, that value
+/// shows.
+std::vector<Stretch> blank_stretches(const TransferFunction& transfer) {
+  const std::vector<TransferPoint>& points = transfer.points;
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].opacity > 0)
+      continue;
+    const bool goes_on = i > 0 && points[i - 1].opacity <= 0;
+    const bool jumps_here = i > 0 && !goes_on && points[i - 1].value == points[i].value;
+    const bool jumps_next =
+        i + 1 < points.size() && points[i + 1].opacity > 0 && points[i + 1].value == points[i].value;
+    if (!goes_on)
+      stretches.push_back({i == 0 ? -infinity : points[i].value, points[i].value});
+    if (jumps_here)
+      stretches.back().low = std::nextafter(points[i].value, infinity);
+    stretches.back().high = i + 1 == points.size() ? infinity
+                            : jumps_next           ? std::nextafter(points[i].value, -infinity)
+                                                   : points[i].value;
+  }
+  return stretches;
+}
+
+/// Where nothing shows, for modes and classifications that read no table of opacities.
+std::vector<Stretch> blank_stretches(const PreparedScene& prepared) {
+  if (prepared.scene.render.mode != Mode::iso)
+    return blank_stretches(prepared.transfer);
+  const double isovalue = isovalue_of(prepared);
+  // The shader compares floats: a value that rounds to the isovalue counts as above.
+  const double step = 1e-6 * std::abs(isovalue);
+  return {{-infinity, isovalue - step}, {isovalue + step, infinity}};
+}
+
+/// By how much what is drawn may differ from the function: what segments are interpolated between.
+double widened_by(const PreparedScene& prepared) {
+  if (prepared.scene.render.classification != Classification::preintegrated)
+    return 0;
+  return (prepared.volume.max - prepared.volume.min) / static_cast<double>(kSegmentTexels - 1);
+}
+
+/// From a cell to the stretch that its values lie in, or `occupied`.
+using StretchOf = std::function<std::uint8_t(std::size_t cell, double low, double high)>;
+constexpr std::uint8_t occupied = 255;
+
+StretchOf by_stretches(const PreparedScene& prepared) {
+  const double margin = widened_by(prepared);
+  return [margin, stretches = blank_stretches(prepared)](std::size_t, double low, double high) {
+    // Numbers beyond 254 have no code; such cells are drawn.
+    for (std::size_t i = 0; i < std::min<std::size_t>(stretches.size(), occupied); ++i) {
+      if (stretches[i].low <= low - margin && high + margin <= stretches[i].high)
+        return static_cast<std::uint8_t>(i);
+    }
+    return occupied;
+  };
+}
+
+StretchOf by_labels(const PreparedScene& prepared) {
+  const bool eight_bit = prepared.scene.render.transfer_texture == TransferTexture::rgba8;
+  std::vector<OpacitySums> tables;
+  LabelSet whole; // rows of which a run counts as one
+  for (const LabelRow& row : prepared.labels.table) {
+    tables.push_back(
+        sums_of(make_table(row.transfer, eight_bit ? 256 : 0, prepared.volume.min, prepared.volume.max)));
+    whole[tables.size() - 1] = row.mode != LabelMode::dvr && tables.back().sums.back() > 0;
+  }
+  return [tables, whole, &cells = prepared.labels.in_cells](std::size_t cell, double low, double high) {
+    const LabelSet& rows = cells[cell];
+    if ((rows & whole).any())
+      return occupied;
+    for (std::size_t row = 0; row < tables.size(); ++row) {
+      if (rows[row] && any_opacity(tables[row], low, high))
+        return occupied;
+    }
+    return std::uint8_t{0};
+  };
+}
+
+StretchOf by_table(const PreparedScene& prepared) {
+  const Mode mode = prepared.scene.render.mode;
+  return [mode, table = opacity_sums(prepared)](std::size_t, double low, double high) {
+    const bool shows =
+        any_opacity(table, mode == Mode::mip ? -infinity : low, mode == Mode::minip ? infinity : high);
+    return shows ? occupied : std::uint8_t{0};
+  };
+}
+
+StretchOf stretch_of(const PreparedScene& prepared) {
+  const RenderSettings& render = prepared.scene.render;
+  if (render.mode == Mode::two_level)
+    return by_labels(prepared);
+  if (render.mode == Mode::iso || render.classification != Classification::post)
+    return by_stretches(prepared);
+  return by_table(prepared);
+}
+
+} // namespace
+
+bool looks_between_samples(const RenderSettings& render) {
+  return render.mode == Mode::iso || render.classification == Classification::preintegrated;
+}
+
 Occupancy occupancy_of(const PreparedScene& prepared) { return occupancy_of(prepared, *prepared.cells); }
 
 Occupancy occupancy_of(const PreparedScene& prepared, const CellRanges& cells) {
-  const OpacitySums table = opacity_sums(prepared);
-  const Mode mode = prepared.scene.render.mode;
+  const StretchOf stretch = stretch_of(prepared);
   const double rounding = rounding_of(prepared);
-  constexpr double infinity = 1e300; // clamped to the table's ends, and no NaN by any product
   Occupancy result;
   result.size = cells.size;
   result.shows.resize(cells.smallest.size());
+  result.stretches.resize(cells.smallest.size());
   for (std::size_t i = 0; i < result.shows.size(); ++i) {
-    const double low = mode == Mode::mip ? -infinity : static_cast<double>(cells.smallest[i]) - rounding;
-    const double high = mode == Mode::minip ? infinity : static_cast<double>(cells.largest[i]) + rounding;
-    result.shows[i] = any_opacity(table, low, high) ? 1 : 0;
+    result.stretches[i] = stretch(i, static_cast<double>(cells.smallest[i]) - rounding,
+                                  static_cast<double>(cells.largest[i]) + rounding);
+    result.shows[i] = result.stretches[i] == occupied ? 1 : 0;
     result.count += result.shows[i];
   }
   return result;
@@ -92,12 +207,11 @@ namespace {
 /// Slices whose samples, all as opaque as the transfer function gets, leave 1 − opaque_enough of the light.
 double opaque_after(const PreparedScene& prepared) {
   double most = 0;
-  if (prepared.scene.transfer.shapes.empty()) {
-    const TransferTable table = drawn_table(prepared);
-    for (std::size_t i = 3; i < table.rgba.size(); i += 4)
-      most = std::max(most, static_cast<double>(table.rgba[i]));
-  } else {
+  if (!prepared.scene.transfer.shapes.empty() || prepared.scene.render.mode == Mode::two_level) {
     most = 1;
+  } else {
+    for (const TransferPoint& point : prepared.transfer.points)
+      most = std::max(most, point.opacity);
   }
   // An 8-bit table rounds, and rays towards the picture's corners are the longest.
   most = std::min(1.0, most + 1.0 / 255);

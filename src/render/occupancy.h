@@ -15,16 +15,25 @@ struct Occupancy {
   std::array<std::size_t, 3> size{0, 0, 0};
   std::vector<std::uint8_t> shows; ///< 0 or 1
   std::size_t count = 0;           ///< of those that show something
+  /// What textures hold: 255 where a cell shows something, else the number of the stretch of values without
+  /// opacity that all of its values lie in. Between two cells of one stretch nothing shows either.
+  std::vector<std::uint8_t> stretches;
 };
 
 /// Cells in which a sample may have opacity: where the table of the transfer function, as the driver filters
 /// it, is above 0 anywhere between the smallest and the largest value that the filter may read, widened by
 /// what textures round values by. Modes `mip` and `minip`: anywhere up to the largest, down to the smallest
-/// value: a ray whose extreme value shows nothing is as empty as one without a sample. Conservative, never
-/// wrong. Needs prepared.cells.
+/// value: a ray whose extreme value shows nothing is as empty as one without a sample. Mode `iso`: where the
+/// isovalue is among the values. Mode `two-level`: where a label that is there shows any of them; a label
+/// whose runs count as a whole shows all. Classifications `pre` and `preintegrated`: by the function itself,
+/// which has no table, the latter up to the next texels of its own. Conservative, never wrong. Needs
+/// prepared.cells.
 Occupancy occupancy_of(const PreparedScene& prepared);
-/// The same of other cells of the same volume.
+/// The same of other cells of the same volume; mode `two-level` knows the labels in prepared.cells only.
 Occupancy occupancy_of(const PreparedScene& prepared, const CellRanges& cells);
+
+/// Whether samples show what lies between two places: surfaces, and segments that are integrated beforehand.
+bool looks_between_samples(const RenderSettings& render);
 
 /// Share of occupied cells from which on looking at cells costs more than it saves (docs/skipping.md).
 inline constexpr double too_many_occupied = 0.7;

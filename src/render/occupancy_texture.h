@@ -8,7 +8,9 @@
 namespace slicelens {
 
 struct OccupancyTexture {
-  gl::Texture texture;           ///< 3D, R8, one texel a cell: cells to the nearest that shows something
+  /// 3D, R8, one texel a cell: cells to the nearest that shows something; for what shows between samples
+  /// Occupancy::stretches.
+  gl::Texture texture;
   glm::vec3 cells_from_texture{1}; ///< cells in one unit of texture coordinates, also fractions
   std::size_t bytes = 0;
 };

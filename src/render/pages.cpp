@@ -4,6 +4,7 @@
 #include "render/bricks.h"
 #include "render/occupancy.h"
 #include "render/pre_classification.h"
+#include "render/shown_parts.h"
 #include "render/texels.h"
 #include "scene/names.h"
 #include "volume/pyramid.h"
@@ -268,9 +269,10 @@ std::vector<PageNeed> page_needs(const PreparedScene& prepared, const PageGrid& 
   const bool anywhere = looks_anywhere(prepared);
   const bool radial = counts_from_eye(prepared);
   const bool lenses_only = !maps.empty() && prepared.lenses.size() == maps.size();
+  const bool segments = prepared.scene.render.classification == Classification::preintegrated;
   // Ends of segments lie beyond planes that cut the data.
-  const bool cut = !anywhere && prepared.scene.render.classification != Classification::preintegrated;
-  const Bounds all{prepared.object_low, prepared.object_high};
+  const bool cut = !anywhere && !segments;
+  const ShownBounds shown_part = shown_parts(prepared);
   std::vector<PageNeed> needs;
   for (std::size_t i = 0; i < contents.size(); ++i) {
     if (!contents[i].needed)
@@ -278,7 +280,10 @@ std::vector<PageNeed> page_needs(const PreparedScene& prepared, const PageGrid& 
     const Bounds data = data_of(prepared, grid, address_of(grid, i));
     if (cut && is_cut_away(prepared.data_clip, data.low, data.high))
       continue;
-    const Bounds shown = shown_data(prepared, maps, data).value_or(all);
+    const std::optional<Bounds> where = shown_part(segments ? with_edge(data) : data);
+    if (!where)
+      continue;
+    const Bounds& shown = *where;
     if (cut && is_cut_away(prepared.object_clip, shown.low, shown.high))
       continue;
     ScreenCover cover = projector.cover(shown.low, shown.high);

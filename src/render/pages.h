@@ -5,6 +5,7 @@
 #include "render/prepare.h"
 #include "render/screen_cover.h"
 #include "render/stack_geometry.h"
+#include "warp/object_bounds.h"
 
 #include <array>
 #include <cstddef>

@@ -33,8 +33,7 @@ struct PassTiles {
 std::int64_t pass_of(std::int64_t plane, std::size_t planes_per_pass);
 
 /// The planes from `first` to `last` whose samples in a tile may show something: those that cut the place
-/// where an occupied cell is shown. Conservative; all of the displayed volume where a warp's bounds are not
-/// known. Needs prepared.cells.
+/// where an occupied cell is shown. Conservative. Needs prepared.cells.
 PassTiles tiles_of_passes(const PreparedScene& prepared, std::int64_t first, std::int64_t last);
 
 } // namespace slicelens

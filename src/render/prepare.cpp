@@ -201,10 +201,12 @@ void prepare_cells(PreparedScene& prepared) {
     prepared.cells = prepared.volume.streamed->cells;
   if (!on_disk && (!prepared.cells || prepared.cells->reach != reach))
     prepared.cells = cell_ranges(prepared.volume, reach);
-  if (!on_disk && render.skip != Skip::none && (!prepared.small_cells || prepared.small_cells->reach != reach))
+  if (render.skip == Skip::none)
+    return;
+  if (!on_disk && (!prepared.small_cells || prepared.small_cells->reach != reach))
     prepared.small_cells = cell_ranges(prepared.volume, reach, small_cell_edge);
-  if (render.skip != Skip::none)
-    prepared.skipping = skipping_of(prepared);
+  prepare_label_cells(prepared);
+  prepared.skipping = skipping_of(prepared);
 }
 
 /// Puts the volume where its placement says. `middle`: of the first volume, which `align` may ask for.
@@ -326,6 +328,12 @@ void draw_own_colors(PreparedScene& prepared) {
     throw UsageError(
         "overlay.legend shows a transfer function, and the volume has colours of its own; set it "
         "to false" +
+        instead);
+  if (prepared.scene.render.skip != Skip::none)
+    throw UsageError(
+        "render.skip '" + word(prepared.scene.render.skip) +
+        "' knows empty cells by a transfer function, which the volume's own colours have not; set "
+        "render.skip to none" +
         instead);
   if (prepared.scene.render.shading != Shading::none)
     throw UsageError(

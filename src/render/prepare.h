@@ -72,7 +72,7 @@ struct PreparedScene {
   std::optional<CellRanges> cells; ///< where render.skip needs them
   /// What fragments leap over under render.skip; none of a volume on disk, where `cells` serve for this too.
   std::optional<CellRanges> small_cells;
-  Skipping skipping;               ///< under this transfer function
+  Skipping skipping; ///< under this transfer function
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};

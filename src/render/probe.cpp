@@ -5,6 +5,7 @@
 #include "gl/state.h"
 #include "gl/target.h"
 #include "render/gpu_scene.h"
+#include "render/pages.h"
 #include "render/several_volumes.h"
 #include "render/shaders.h"
 #include "render/uniforms.h"
@@ -106,6 +107,9 @@ std::vector<ProbeSample> sample_line(const PreparedScene& prepared, const gl::Co
                                      const ProbeLine& line, int count) {
   if (!prepared.volume.colors.rgba.empty())
     throw UsageError("a volume of colours has no values to pick; choose one component with volume.component");
+  if (is_paged(prepared))
+    throw UsageError(
+        "picking holds the volume in one texture, and render.memory is too small for it; raise it");
   const gl::Functions& gl = context.functions();
   const GpuScene scene = upload(gl, prepared, {});
   const std::vector<float> places = rasterise(gl, prepared, scene, line, count, true);

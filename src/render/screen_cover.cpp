@@ -53,18 +53,4 @@ ScreenCover ScreenProjector::cover(const glm::dvec3& low, const glm::dvec3& high
   return cover;
 }
 
-std::optional<Bounds> shown_data(const PreparedScene& prepared, const std::vector<WarpMap>& maps,
-                                 const Bounds& data) {
-  if (maps.empty())
-    return data;
-  Bounds bounds{box_from_texture(prepared.space, data.low), box_from_texture(prepared.space, data.high)};
-  for (const WarpMap& map : maps) {
-    const auto shown = shown_bounds(map, bounds);
-    if (!shown)
-      return std::nullopt;
-    bounds = *shown;
-  }
-  return Bounds{texture_from_box(prepared.space, bounds.low), texture_from_box(prepared.space, bounds.high)};
-}
-
 } // namespace slicelens

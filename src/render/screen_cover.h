@@ -2,10 +2,8 @@
 #pragma once
 
 #include "render/prepare.h"
-#include "warp/object_bounds.h"
 
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace slicelens {
@@ -33,10 +31,5 @@ private:
 
 /// Whether some half-space leaves nothing of a box.
 bool is_cut_away(const std::vector<Plane>& planes, const glm::dvec3& low, const glm::dvec3& high);
-
-/// Where the data of a box of texture coordinates are shown under the chain `maps`, texture coordinates of
-/// the displayed volume; nothing where only the whole displayed volume is known to hold them.
-std::optional<Bounds> shown_data(const PreparedScene& prepared, const std::vector<WarpMap>& maps,
-                                 const Bounds& data);
 
 } // namespace slicelens

@@ -28,8 +28,8 @@ const std::vector<std::string>& own_names() {
       "forward_gradient", "central_gradient", "carried_gradient", "shown_gradient",
       // gpu/light.glsl
       "world_from_gradient", "to_light", "ambient", "diffuse", "specular", "power", "cool", "warm",
-      "two_sided", "shade_with", "shade", "opacity_factor", "plain_color", "transfer_2d_texture", "transfer_2d_place",
-      "classify_2d", "full_gradient",
+      "two_sided", "shade_with", "shade", "opacity_factor", "plain_color", "transfer_2d_texture",
+      "transfer_2d_place", "classify_2d", "full_gradient",
       // gpu/one_volume.glsl
       "own_from_first", "length_ratio", "unit_from_value", "own_sample", "own_unit", "own_color"};
   return names;

@@ -35,8 +35,9 @@ glm::dvec2 value_from_unit(const PreparedScene& prepared) {
   return {1 / forward.x, -forward.y / forward.x};
 }
 
-/// Texture unit of what is gathered, read between passes: that of MIP's maxima, which has nothing hidden.
-constexpr GLenum marks_unit = 2;
+/// Texture unit of what is gathered, read between passes: behind those of labels, of a pyramid's levels,
+/// beside which render.skip is refused.
+constexpr GLenum marks_unit = 6;
 
 /// Under MIP the winning sample keeps its own highlight and attenuation, which the largest of each channel
 /// would mix up: a depth test picks the sample instead.
@@ -76,8 +77,8 @@ void begin_tiles(const gl::Functions& gl, const gl::Target& target, int edge) {
   gl.GetFloatv(GL_POINT_SIZE_RANGE, sizes);
   if (sizes[1] < static_cast<GLfloat>(edge))
     throw GraphicsError("render.skip draws points of " + std::to_string(edge) +
-                        " pixels, and this driver's are at most " + std::to_string(static_cast<int>(sizes[1])) +
-                        "; set render.skip to none");
+                        " pixels, and this driver's are at most " +
+                        std::to_string(static_cast<int>(sizes[1])) + "; set render.skip to none");
   gl.PointSize(static_cast<float>(edge));
   gl.Viewport(0, 0, whole_tiles(target.width, edge), whole_tiles(target.height, edge));
 }
@@ -140,7 +141,8 @@ void SliceRenderer::draw_entries(std::size_t begin, std::size_t end) const {
   if (begin >= end)
     return;
   const std::size_t first = begin == 0 ? 0 : index_ends_[begin - 1];
-  gl_->DrawElements(tile_edge_ > 0 ? GL_POINTS : GL_TRIANGLES, static_cast<GLsizei>(index_ends_[end - 1] - first), GL_UNSIGNED_INT,
+  gl_->DrawElements(tile_edge_ > 0 ? GL_POINTS : GL_TRIANGLES,
+                    static_cast<GLsizei>(index_ends_[end - 1] - first), GL_UNSIGNED_INT,
                     reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
 }
 

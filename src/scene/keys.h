@@ -159,9 +159,10 @@ void render_keys(Visitor& visit, Settings& s) {
             "displayed volume: Brunet 2006) (none: as the first warp's paper did)");
   visit.key("gradient_resolution", s.gradient_resolution,
             "of the Gaussian copy of gradient prefiltered: full, half or quarter");
-  visit.key("gradient_texture", s.gradient_texture,
-            "of gradient precomputed: rgb16f, or rgba32f with the value beside it, so that a shaded sample is one "
-            "fetch (16 bytes a voxel)");
+  visit.key(
+      "gradient_texture", s.gradient_texture,
+      "of gradient precomputed: rgb16f, or rgba32f with the value beside it, so that a shaded sample is one "
+      "fetch (16 bytes a voxel)");
   visit.key("gradient_sigma", s.gradient_sigma,
             "standard deviation of that Gaussian in voxels of the copy, 0.3 to 8", Range::positive);
   visit.key("classification", s.classification,

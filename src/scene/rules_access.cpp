@@ -34,8 +34,10 @@ void validate_access(const Scene& scene) {
   if (const auto what = what_needs_voxels(scene))
     throw UsageError(*what + " needs all voxels at once, which " + access +
                      " does not hold; set volume.access to memory");
-  if (volume.access == VolumeAccess::stream && (scene.render.levels > 1))
-    throw UsageError("render.levels needs coarser copies of the volume, which " + access +
+  if (volume.access == VolumeAccess::stream &&
+      (scene.render.levels > 1 || scene.render.footprint == Footprint::mip))
+    throw UsageError(std::string(scene.render.levels > 1 ? "render.levels" : "render.footprint 'mip'") +
+                     " needs coarser copies of the volume, which " + access +
                      " does not make; set volume.access to cache or memory");
 }
 

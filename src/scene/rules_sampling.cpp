@@ -241,9 +241,14 @@ void validate_slabs(const Scene& scene, const std::function<void(const std::stri
   if (render.pipeline == Pipeline::tessellated || render.pipeline == Pipeline::fixed_function)
     refuse("finds samples at the fragment, and pipeline '" + word(render.pipeline) +
            "' looks where the corners of triangles say; use slices, axis, fragment or grid");
-  if (render.mode == Mode::iso || render.mode == Mode::two_level)
-    refuse("composites samples, and mode '" + word(render.mode) +
-           "' is drawn slice by slice; use pipeline rays");
+  if (render.mode == Mode::iso)
+    refuse("composites samples, and mode 'iso' is drawn slice by slice; use pipeline rays");
+  const auto is_whole = [](const LabelSettings& label) {
+    return label.visible && label.mode != LabelMode::dvr;
+  };
+  if (render.mode == Mode::two_level && std::any_of(scene.labels.begin(), scene.labels.end(), is_whole))
+    refuse("composites samples, and objects that are shown as a whole (mip, xray) are drawn slice by slice; "
+           "use pipeline rays, or mode dvr for all labels");
   if (render.proxy == Proxy::shells)
     refuse("knows planes only; set render.proxy to planes");
   if (render.tiles != std::array<std::size_t, 3>{1, 1, 1})
@@ -283,18 +288,15 @@ void validate_skip(const Scene& scene) {
     refuse("is for slices and rays, the reference samples everything" + off);
   if (!scene.others.empty())
     refuse("knows the empty cells of one volume; show one or" + off.substr(1));
-  if (render.mode == Mode::average || render.mode == Mode::iso || render.mode == Mode::two_level)
-    refuse("cannot tell what mode '" + word(render.mode) + "' does not need" + off);
-  if (render.classification != Classification::post)
-    refuse("classifies the range of values around each sample; set render.classification to post or "
-           "render.skip to none");
+  if (render.mode == Mode::average)
+    refuse("leaves out samples that show nothing, which mode 'average' counts; set render.skip to none");
   if (render.levels != 1 || render.footprint == Footprint::mip ||
       render.tiles != std::array<std::size_t, 3>{1, 1, 1})
     refuse(
         "knows the cells of one texture at full resolution; set render.tiles to [1,1,1], render.levels to 1 "
         "and render.footprint to point, or render.skip to none");
-  if (render.skip == Skip::empty_and_hidden && render.mode != Mode::dvr)
-    refuse("is for mode dvr: nothing is hidden under mode '" + word(render.mode) +
+  if (render.skip == Skip::empty_and_hidden && !composites(render.mode))
+    refuse("is for modes dvr and two-level: nothing is hidden under mode '" + word(render.mode) +
            "'; set render.skip to empty");
   if (!draws_slices(render.pipeline))
     return;

@@ -88,6 +88,11 @@ void validate_bricks(const Scene& scene) {
         "render.classification 'pre' holds the volume in one texture of colours; set render.tiles to "
         "[1,1,1] and render.levels to 1, or render.classification to post");
   }
+  if (render.brick < min_brick || render.brick > max_brick || render.brick % 8 != 0)
+    throw UsageError("render.brick must be from " + std::to_string(min_brick) + " to " +
+                     std::to_string(max_brick) + " in steps of 8, not " + std::to_string(render.brick));
+  if (render.memory && *render.memory > max_memory)
+    throw UsageError("render.memory is in MiB; take at most " + std::to_string(max_memory));
   const auto& tiles = render.tiles;
   for (const std::size_t n : tiles) {
     if (n < 1 || n > max_tiles)

@@ -289,13 +289,18 @@ Scene scene_of_volume(const Scene& scene, std::size_t index);
 /// Most entries of `planes`.
 inline constexpr std::size_t max_planes_shown = 16;
 
+/// Limits of render.memory, MiB, and what it is where it is not given: the largest texture that software
+/// drivers make. Of render.brick, in steps of 8.
+inline constexpr std::size_t default_memory = 1024;
+inline constexpr std::size_t max_memory = std::size_t{1} << 20;
+inline constexpr std::size_t min_brick = 16;
+inline constexpr std::size_t max_brick = 128;
+
 /// Limits of render.tiles and render.levels.
 inline constexpr std::size_t max_tiles = 1024;    ///< in all
 inline constexpr std::size_t min_tile_voxels = 4; ///< on each axis of a tile
 inline constexpr std::size_t max_levels = 8;
 
-/// Where render.memory is not given, MiB: the largest texture that software drivers make.
-inline constexpr std::size_t default_memory = 1024;
 /// Of render.subdivision.
 inline constexpr std::size_t max_subdivision = 512;
 /// Limit of render.grid_size; the upper one is max_grid_nodes.

@@ -1,7 +1,9 @@
 // Which copy in bricks stands for a volume, and when it is made.
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "volume/brick_file.h"
+#include "volume/file_checks.h"
 #include "volume/file_stamp.h"
 #include "volume/on_disk.h"
 #include "volume/scan_record.h"
@@ -25,6 +27,30 @@ struct Place {
   std::string stamps; ///< of the files before they were hashed
 };
 
+/// sha256_of files that have these stamps. It is kept beside the copies, as hashing a large file takes as
+/// long as reading it: behind it the hash of both, by which damage shows.
+std::string digest_of(const std::vector<fs::path>& files, const std::string& stamps) {
+  const fs::path folder = user_cache();
+  const fs::path kept = folder.empty() ? folder : folder / (sha256_of_text(stamps).substr(0, 40) + ".sha256");
+  constexpr std::size_t digits = 64;
+  std::error_code error;
+  if (!kept.empty() && fs::is_regular_file(kept, error)) {
+    const std::string text = head_of(kept, 2 * digits + 1);
+    if (text.size() == 2 * digits && text.substr(digits) == sha256_of_text(stamps + text.substr(0, digits)))
+      return text.substr(0, digits);
+  }
+  const std::string digest = sha256_of(files);
+  if (kept.empty() || stamps_text(files) != stamps)
+    return digest;
+  try {
+    fs::create_directories(folder, error);
+    write_text_atomically(kept, digest + sha256_of_text(stamps + digest));
+  } catch (const FileError&) {
+    // It is worked out again next time; what cannot be written there otherwise says so.
+  }
+  return digest;
+}
+
 /// A copy holds its volume's place in the world as it was given.
 std::string spacing_text(const VolumeSource& source) {
   if (!source.spacing)
@@ -37,7 +63,8 @@ Place place_of(const VolumeSource& source, const CacheRequest& request) {
   Place place;
   place.files = files_of(source);
   place.stamps = stamps_text(place.files);
-  place.source = {source.file.string(), sha256_of(place.files), choice_text(source) + spacing_text(source)};
+  place.source = {source.file.string(), digest_of(place.files, place.stamps),
+                  choice_text(source) + spacing_text(source)};
   if (request.file) {
     place.path = *request.file;
     place.chosen = true;
@@ -89,7 +116,8 @@ std::optional<BrickHeader> header_at(const Place& place, const Progress& progres
 
 /// The voxels to be copied, from the files.
 Volume read_source(const VolumeSource& source, const Progress& progress) {
-  if (std::optional<Volume> streamed = stream_volume(source, progress))
+  if (std::optional<Volume> streamed =
+          stream_volume(source, progress, ScanKeeping::drop)) // the copy keeps it
     return std::move(*streamed);
   return read_volume(source, progress);
 }

@@ -56,11 +56,12 @@ Volume nifti_outline(const fs::path& file) {
 
 /// The volume with its stream and what is to be known of its voxels.
 Volume with_scan(Volume volume, std::unique_ptr<const VoxelStream> stream, const std::string& where,
-                 const std::string& identity, int threads, const Progress& progress) {
+                 const std::string& identity, int threads, ScanKeeping keeping, const Progress& progress) {
   std::optional<KeptScan> kept = kept_scan(identity, volume.dims, progress);
   if (!kept || kept->type != volume.type) {
     kept = KeptScan{volume.type, scan_voxels(*stream, volume, threads, progress)};
-    keep_scan(identity, *kept, progress);
+    if (keeping == ScanKeeping::keep)
+      keep_scan(identity, *kept, progress);
   }
   set_statistics(volume, kept->scan);
   auto streamed = std::make_shared<StreamedVoxels>();
@@ -100,7 +101,8 @@ std::optional<VolumeOutline> outline_of(const VolumeSource& source, const Progre
 
 namespace {
 
-std::optional<Volume> stream_dicom(const Input& input, const VolumeSource& source, const Progress& caller) {
+std::optional<Volume> stream_dicom(const Input& input, const VolumeSource& source, const Progress& caller,
+                                   ScanKeeping keeping) {
   const Progress progress = saying_once(caller);
   const DicomStack stack = dicom_stack(input.files, input.named, source, progress);
   std::vector<fs::path> files;
@@ -121,17 +123,18 @@ std::optional<Volume> stream_dicom(const Input& input, const VolumeSource& sourc
   auto stream = dicom_stream(stack, volume.type);
   // One thread: slices are decoded one at a time, and what the decoder prints must not meet what others do.
   return with_scan(std::move(volume), std::move(stream), "stream: " + source.file.string(), identity, 1,
-                   progress);
+                   keeping, progress);
 }
 
 } // namespace
 
-std::optional<Volume> stream_volume(const VolumeSource& source, const Progress& progress) {
+std::optional<Volume> stream_volume(const VolumeSource& source, const Progress& progress,
+                                    ScanKeeping keeping) {
   report_progress(progress, "load", 0);
   const Input input = resolve(source);
   if (input.kind == InputFormat::dicom) {
     refuse_raw_keys(source);
-    return stream_dicom(input, source, progress);
+    return stream_dicom(input, source, progress, keeping);
   }
   if (!holds_raw(input.kind))
     return std::nullopt;
@@ -146,7 +149,7 @@ std::optional<Volume> stream_volume(const VolumeSource& source, const Progress& 
   volume.components = 1;
   apply_spacing(volume, source);
   volume = with_scan(std::move(volume), std::move(stream), "stream: " + source.file.string(), identity, 0,
-                     progress);
+                     keeping, progress);
   report_progress(progress, "load", 1);
   return volume;
 }

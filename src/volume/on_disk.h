@@ -20,14 +20,19 @@ struct VolumeOutline {
 /// that of the first slice. Throws as read_volume.
 std::optional<VolumeOutline> outline_of(const VolumeSource& source, const Progress& progress = {});
 
+/// Whether what was found out about all voxels is kept for the next call.
+enum class ScanKeeping { keep, drop };
+
 /// read_volume without holding the voxels: raw files, NRRD and MetaImage with raw voxels in one file or
 /// several, of one component or with the one that source.component names, and DICOM of one component whose
 /// slices are files of their own. Nothing for other volumes. Reads all of them once, a few MiB at a time, for
 /// what is to be known of them as a whole; keeps that in the user's cache folder ($XDG_CACHE_HOME/slicelens
-/// or ~/.cache/slicelens), where the next call finds it as long as the files have the same size and time.
+/// or ~/.cache/slicelens), where the next call finds it as long as the files have the same size and time,
+/// unless `keeping` says otherwise.
 ///
 /// Throws as read_volume, but for volumes larger than the memory; what the stream's reads throw.
-std::optional<Volume> stream_volume(const VolumeSource& source, const Progress& progress = {});
+std::optional<Volume> stream_volume(const VolumeSource& source, const Progress& progress = {},
+                                    ScanKeeping keeping = ScanKeeping::keep);
 
 /// Where a copy of a volume in bricks is, and what it must hold.
 struct CacheRequest {

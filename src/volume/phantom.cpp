@@ -229,18 +229,28 @@ std::string size_text(const std::array<std::size_t, 3>& size) {
   return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
 }
 
-void check_size(const std::string& name, const std::array<std::size_t, 3>& size, ScalarType type) {
-  const std::string what = "phantom '" + name + "' of " + size_text(size) + " voxels";
+std::string phantom_text(const std::string& name, const std::array<std::size_t, 3>& size) {
+  return "phantom '" + name + "' of " + size_text(size) + " voxels";
+}
+
+void check_size(const std::string& name, const std::array<std::size_t, 3>& size) {
   if (*std::min_element(size.begin(), size.end()) == 0)
-    throw UsageError(what + ": every size must be at least 1");
-  if (*std::max_element(size.begin(), size.end()) > kMaxPhantomEdge)
-    throw LimitError(what + ": at most " + std::to_string(kMaxPhantomEdge) + " voxels on an edge");
-  // Three factors of at most 2^14 and one of 8 cannot overflow 64 bits.
-  const std::size_t bytes = size[0] * size[1] * size[2] * size_of(type);
-  if (bytes > kMaxPhantomBytes)
-    throw LimitError(what + " needs " + number_text(std::ceil(static_cast<double>(bytes) / (1 << 30))) +
-                     " GiB; at most " + std::to_string(kMaxPhantomBytes >> 30) +
-                     " GiB are made (1024 x 1024 x 1024 fits)");
+    throw UsageError(phantom_text(name, size) + ": every size must be at least 1");
+  if (*std::max_element(size.begin(), size.end()) > kMaxPhantomEdge) {
+    throw LimitError(phantom_text(name, size) + ": at most " + std::to_string(kMaxPhantomEdge) +
+                     " voxels on an edge");
+  }
+}
+
+void check_memory(const std::string& name, const Volume& volume) {
+  const std::size_t bytes = voxel_bytes(volume);
+  if (bytes > kMaxPhantomBytes) {
+    throw LimitError(phantom_text(name, volume.dims) + " needs " +
+                     number_text(std::ceil(static_cast<double>(bytes) / (1 << 30))) + " GiB; at most " +
+                     std::to_string(kMaxPhantomBytes >> 30) +
+                     " GiB are made in memory (1024 x 1024 x 1024 fits); 'slicelens phantom' writes larger "
+                     "ones into a file");
+  }
 }
 
 template <class T>
@@ -253,16 +263,17 @@ T scalar_from(double value) {
   }
 }
 
+/// Rows first … first + count − 1, where row = j + ny·k.
 template <class T>
-void evaluate_planes(const PhantomGrid& grid, const PhantomRows& rows, std::size_t first, std::size_t last,
-                     T* scalars) {
+void evaluate_rows(const PhantomGrid& grid, const PhantomRows& rows, std::size_t first, std::size_t count,
+                   T* scalars) {
   const std::size_t nx = grid.dims[0];
   const std::size_t ny = grid.dims[1];
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(first * ny, last * ny, 8),
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       std::vector<double> row(nx);
                       for (std::size_t r = range.begin(); r != range.end(); ++r) {
-                        rows(grid, r % ny, r / ny, row);
+                        rows(grid, (first + r) % ny, (first + r) / ny, row);
                         std::transform(row.begin(), row.end(), scalars + r * nx, scalar_from<T>);
                       }
                     });
@@ -282,11 +293,11 @@ const std::vector<PhantomInfo>& phantoms() {
 
 const PhantomInfo& phantom_info(const std::string& name) { return recipe(name).info; }
 
-Volume make_phantom(const std::string& name, const std::array<std::size_t, 3>& size,
-                    const Progress& progress) {
+PhantomSource phantom_source(const std::string& name, const std::array<std::size_t, 3>& size) {
   const Recipe& chosen = recipe(name);
-  check_size(name, size, chosen.type);
-  Volume volume;
+  check_size(name, size);
+  PhantomSource source;
+  Volume& volume = source.volume;
   volume.dims = size;
   volume.type = chosen.type;
   volume.format = "phantom";
@@ -296,25 +307,38 @@ Volume make_phantom(const std::string& name, const std::array<std::size_t, 3>& s
   const PhantomGrid grid{size, longest * chosen.shape};
   volume.spacing = {grid.spacing(0), grid.spacing(1), grid.spacing(2)};
   volume.origin = (volume.spacing - grid.edges) / 2.0;
+  source.rows = [grid, rows = chosen.rows(), type = chosen.type](std::size_t first,
+                                                                 std::span<std::byte> out) {
+    visit_scalar_type(type, [&](auto* tag) {
+      using T = std::remove_pointer_t<decltype(tag)>;
+      evaluate_rows(grid, rows, first, out.size() / (grid.dims[0] * sizeof(T)),
+                    reinterpret_cast<T*>(out.data()));
+    });
+  };
+  return source;
+}
+
+Volume make_phantom(const std::string& name, const std::array<std::size_t, 3>& size,
+                    const Progress& progress) {
+  PhantomSource source = phantom_source(name, size);
+  Volume& volume = source.volume;
+  check_memory(name, volume);
   try {
     volume.voxels.resize(voxel_bytes(volume));
   } catch (const std::bad_alloc&) {
-    throw LimitError("phantom '" + name + "' of " + size_text(size) + " voxels: not enough memory");
+    throw LimitError(phantom_text(name, size) + ": not enough memory");
   }
-  const PhantomRows rows = chosen.rows();
-  const std::size_t planes = size[2];
-  const std::size_t chunk = std::max<std::size_t>(1, planes / 16);
-  for (std::size_t k = 0; k < planes; k += chunk) {
-    report_progress(progress, "phantom", static_cast<double>(k) / static_cast<double>(planes));
-    const std::size_t end = std::min(planes, k + chunk);
-    visit_scalar_type(volume.type, [&](auto* tag) {
-      using T = std::remove_pointer_t<decltype(tag)>;
-      evaluate_planes(grid, rows, k, end, reinterpret_cast<T*>(volume.voxels.data()));
-    });
+  const std::size_t rows = size[1] * size[2];
+  const std::size_t row_bytes = volume.voxels.size() / rows;
+  const std::size_t chunk = std::max<std::size_t>(1, rows / 16);
+  for (std::size_t row = 0; row < rows; row += chunk) {
+    report_progress(progress, "phantom", static_cast<double>(row) / static_cast<double>(rows));
+    const std::size_t count = std::min(chunk, rows - row);
+    source.rows(row, std::span(volume.voxels).subspan(row * row_bytes, count * row_bytes));
   }
   report_progress(progress, "phantom", 1);
   update_statistics(volume);
-  return volume;
+  return std::move(volume);
 }
 
 Volume make_phantom(const std::string& name, const Progress& progress) {

@@ -3,6 +3,7 @@
 
 #include "core/progress.h"
 #include "volume/volume.h"
+#include "volume/write.h"
 
 #include <array>
 #include <cstddef>
@@ -43,6 +44,15 @@ Volume make_phantom(const std::string& name, const std::array<std::size_t, 3>& s
 /// The same at the phantom's default size.
 Volume make_phantom(const std::string& name, const Progress& progress = {});
 
+/// A phantom whose voxels are not made yet, for files larger than memory.
+struct PhantomSource {
+  Volume volume; ///< place and type; no voxels, no statistics
+  RowSource rows;
+};
+
+/// The values are those of make_phantom, and so are the errors but for kMaxPhantomBytes.
+PhantomSource phantom_source(const std::string& name, const std::array<std::size_t, 3>& size);
+
 /// The entry of phantoms(). Throws UsageError naming the nearest one.
 const PhantomInfo& phantom_info(const std::string& name);
 
@@ -57,7 +67,7 @@ struct OrganInfo {
 const std::vector<OrganInfo>& organs();
 
 constexpr std::size_t kMaxPhantomEdge = 16384;
-constexpr std::size_t kMaxPhantomBytes = std::size_t{4} << 30;
+constexpr std::size_t kMaxPhantomBytes = std::size_t{4} << 30; ///< in memory
 
 /// The parameters of the phantoms with closed forms (closed_forms.h), lengths as fractions of the box edge.
 constexpr double kBallRadius = 0.4;    ///< `ball`

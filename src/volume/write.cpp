@@ -11,6 +11,11 @@
 #include <itkMetaImageIO.h>
 #include <itkNrrdImageIO.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
 #include <system_error>
 
 namespace slicelens {
@@ -65,6 +70,10 @@ void describe(itk::ImageIOBase& io, const Volume& volume, bool compress) {
   io.SetUseCompression(compress);
 }
 
+[[noreturn]] void throw_unwritten(const fs::path& path, const std::string& why) {
+  throw FileError(path.string(), "cannot be written in full (" + why + "); is the disk full?");
+}
+
 /// Writes into `file` through ITK and looks at what arrived: its writers do not report every full disk.
 void write_with_itk(const Volume& volume, const fs::path& file, const fs::path& path, bool meta,
                     bool compress) {
@@ -88,8 +97,77 @@ void write_with_itk(const Volume& volume, const fs::path& file, const fs::path& 
     parse_nrrd(file);
 }
 
-[[noreturn]] void throw_unwritten(const fs::path& path, const std::string& why) {
-  throw FileError(path.string(), "cannot be written in full (" + why + "); is the disk full?");
+/// The data files that a header names: none when the voxels follow it.
+std::vector<fs::path> data_files_of(const fs::path& header, bool meta) {
+  return meta ? scan_meta(header).data_files : parse_nrrd(header).data_files;
+}
+
+/// A header of ITK's for one voxel, with the sizes of `volume` instead: nothing else in it depends on them.
+std::string with_sizes_of(const Volume& volume, std::string header, bool meta) {
+  const std::string one = "1 1 1";
+  const std::size_t line = header.find(meta ? "\nDimSize = " : "\nsizes: ");
+  const std::size_t end = header.find('\n', line + 1);
+  header.replace(end - one.size(), one.size(),
+                 std::to_string(volume.dims[0]) + " " + std::to_string(volume.dims[1]) + " " +
+                     std::to_string(volume.dims[2]));
+  return header;
+}
+
+/// `header` and then, into `data`, all rows. The two may be one file.
+void write_header_and_rows(const Volume& volume, const RowSource& rows, const std::string& header,
+                           const fs::path& file, const fs::path& data, const fs::path& path,
+                           const Progress& progress) {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out << header;
+  if (data != file) {
+    out.close();
+    if (!out)
+      throw_unwritten(path, std::strerror(errno));
+    out.open(data, std::ios::binary | std::ios::trunc);
+  }
+  const std::size_t total = volume.dims[1] * volume.dims[2];
+  const std::size_t row_bytes = voxel_bytes(volume) / total;
+  const std::size_t chunk = std::clamp<std::size_t>((std::size_t{32} << 20) / row_bytes, 1, total);
+  std::vector<std::byte> buffer(chunk * row_bytes);
+  for (std::size_t row = 0; row < total && out; row += chunk) {
+    report_progress(progress, "write", static_cast<double>(row) / static_cast<double>(total));
+    const std::span<std::byte> part(buffer.data(), std::min(chunk, total - row) * row_bytes);
+    rows(row, part);
+    out.write(reinterpret_cast<const char*>(part.data()), static_cast<std::streamsize>(part.size()));
+  }
+  out.close();
+  if (!out)
+    throw_unwritten(path, std::strerror(errno));
+  report_progress(progress, "write", 1);
+}
+
+void write_in_rows(const Volume& volume, const RowSource& rows, const fs::path& file, const fs::path& path,
+                   bool meta, const Progress& progress) {
+  Volume one = volume;
+  one.dims = {1, 1, 1};
+  one.voxels.assign(voxel_bytes(one), std::byte{0});
+  write_with_itk(one, file, path, meta, false);
+  const std::vector<fs::path> data = data_files_of(file, meta);
+  std::string header = read_text(file);
+  if (data.empty())
+    header.resize(header.size() - one.voxels.size());
+  header = with_sizes_of(volume, std::move(header), meta);
+  write_header_and_rows(volume, rows, header, file, data.empty() ? file : data.front(), path, progress);
+}
+
+/// Throws FileError where the disk of `path` has no room for `volume`. Nothing where the system does not say.
+void check_room(const Volume& volume, const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code error;
+  const fs::space_info space = fs::space(folder, error);
+  const std::size_t needed = voxel_bytes(volume);
+  if (error || space.available >= needed)
+    return;
+  const auto gib = [](std::uintmax_t bytes) {
+    return number_text(std::round(static_cast<double>(bytes) / (1 << 30) * 10) / 10) + " GiB";
+  };
+  throw FileError(path.string(), "needs " + gib(needed) + " and the disk has " + gib(space.available) +
+                                     " left; make room or write elsewhere");
 }
 
 /// Moves `from` to `to`, or throws naming `path`.
@@ -100,9 +178,12 @@ void move_file(const fs::path& from, const fs::path& to, const fs::path& path) {
     throw FileError(path.string(), "cannot be put in place: " + error.message());
 }
 
+/// Writes a header, and with it the data file that it names if it names one, under the name it is given.
+using Writer = std::function<void(const fs::path& header)>;
+
 /// A header and its data file: both are made under their names in a folder of their own beside the target.
 /// The voxels are moved first, the header last; when that fails the old voxels are put back.
-void write_pair(const Volume& volume, const fs::path& path, bool meta, bool compress) {
+void write_pair(const fs::path& path, bool meta, const Writer& write) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   fs::path made;
   fs::path data;
@@ -116,8 +197,8 @@ void write_pair(const Volume& volume, const fs::path& path, bool meta, bool comp
       if (error)
         throw FileError(path.string(), "cannot be written: " + error.message());
       const fs::path header = made / path.filename();
-      write_with_itk(volume, header, path, meta, compress);
-      const auto files = meta ? scan_meta(header).data_files : parse_nrrd(header).data_files;
+      write(header);
+      const auto files = data_files_of(header, meta);
       if (files.size() != 1)
         throw_unwritten(path, "no data file");
       data = files.front().filename();
@@ -138,34 +219,48 @@ void write_pair(const Volume& volume, const fs::path& path, bool meta, bool comp
   fs::remove_all(made, error);
 }
 
-} // namespace
-
-void write_volume(const Volume& volume, const fs::path& path, const WriteOptions& options) {
+bool is_meta(const fs::path& path) {
   const std::string extension = lower(path.extension().string());
   const bool meta = extension == ".mha" || extension == ".mhd";
   if (!meta && extension != ".nrrd" && extension != ".nhdr")
     throw UsageError(path.string() + ": a volume is written as .nrrd, .nhdr, .mha or .mhd");
+  return meta;
+}
+
+/// One file or two, which appear when they are complete.
+void write_files(const fs::path& path, bool meta, const Writer& write) {
+  const std::string extension = lower(path.extension().string());
+  try {
+    if (extension == ".mhd" || extension == ".nhdr")
+      write_pair(path, meta, write);
+    else
+      write_atomically(path, write);
+  } catch (const FileError& error) {
+    // Scans of the temporary files name them; the user knows only `path`.
+    const std::string text = error.what();
+    if (text.rfind(path.string() + ":", 0) == 0)
+      throw;
+    throw_unwritten(path, one_line(text.substr(text.find(": ") + 2)));
+  }
+}
+
+} // namespace
+
+void write_volume(const Volume& volume, const fs::path& path, const WriteOptions& options) {
+  const bool meta = is_meta(path);
   if (volume.voxels.size() != voxel_bytes(volume) || volume.voxels.empty())
     throw UsageError(path.string() + ": the volume has no voxels to write");
-  const auto checked = [&](const auto& write) {
-    try {
-      write();
-    } catch (const FileError& error) {
-      // Scans of the temporary files name them; the user knows only `path`.
-      const std::string text = error.what();
-      if (text.rfind(path.string() + ":", 0) == 0)
-        throw;
-      throw_unwritten(path, one_line(text.substr(text.find(": ") + 2)));
-    }
-  };
-  if (extension == ".mhd" || extension == ".nhdr") {
-    checked([&] { write_pair(volume, path, meta, options.compress); });
-    return;
-  }
-  checked([&] {
-    write_atomically(path, [&](const fs::path& temporary) {
-      write_with_itk(volume, temporary, path, meta, options.compress);
-    });
+  write_files(path, meta,
+              [&](const fs::path& file) { write_with_itk(volume, file, path, meta, options.compress); });
+}
+
+void write_rows(const Volume& volume, const RowSource& rows, const fs::path& path, const Progress& progress) {
+  const bool meta = is_meta(path);
+  if (voxel_bytes(volume) == 0)
+    throw UsageError(path.string() + ": the volume has no voxels to write");
+  write_files(path, meta, [&](const fs::path& file) {
+    check_room(volume, path);
+    write_in_rows(volume, rows, file, path, meta, progress);
   });
 }
 

@@ -1,9 +1,13 @@
 // Writing volumes.
 #pragma once
 
+#include "core/progress.h"
 #include "volume/volume.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <span>
 
 namespace slicelens {
 
@@ -17,5 +21,15 @@ struct WriteOptions {
 /// the header cannot be. Throws UsageError for another extension, FileError when a file cannot be written in
 /// full (the old ones are then unharmed).
 void write_volume(const Volume& volume, const std::filesystem::path& path, const WriteOptions& options = {});
+
+/// Fills `out` with whole rows of voxels, from row `first` on: row j + ny·k holds the voxels (0…nx−1, j, k).
+/// Of the volume's type, in the machine's byte order.
+using RowSource = std::function<void(std::size_t first, std::span<std::byte> out)>;
+
+/// write_volume, uncompressed, for a volume that need not fit in memory: `volume` says everything but the
+/// voxels, and `rows` is asked for them in order, at most 32 MiB (or one row) at a time. The same bytes as
+/// from write_volume. Before it starts the disk is asked for room: FileError where there is not enough.
+void write_rows(const Volume& volume, const RowSource& rows, const std::filesystem::path& path,
+                const Progress& progress = {});
 
 } // namespace slicelens

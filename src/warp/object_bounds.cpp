@@ -230,22 +230,4 @@ Bounds footprint_bounds(const LamarMap& map) {
   return bounds;
 }
 
-std::optional<Bounds> shown_bounds(const WarpMap& map, const Bounds& box) {
-  return std::visit(
-      [&](const auto& value) -> std::optional<Bounds> {
-        using Map = std::remove_cvref_t<decltype(value)>;
-        if constexpr (is_one_of<Map, BifocalMap, FisheyeMap, VolumeLensMap, ConnectedLensMap, GridMap>) {
-          return std::nullopt;
-        } else if constexpr (std::is_same_v<Map, LamarMap>) {
-          const Bounds footprint = footprint_bounds(value);
-          const bool meets = glm::all(glm::lessThanEqual(box.low, footprint.high)) &&
-                             glm::all(glm::greaterThanEqual(box.high, footprint.low));
-          return meets ? joined(box, footprint) : box;
-        } else {
-          return bounds_of(value, box);
-        }
-      },
-      map);
-}
-
 } // namespace slicelens

@@ -3,8 +3,6 @@
 
 #include "warp/warp.h"
 
-#include <optional>
-
 namespace slicelens {
 
 /// An axis-aligned box of box space.
@@ -22,9 +20,5 @@ Bounds object_bounds(const WarpMap& map, const Bounds& box);
 
 /// The footprint of a lens over its whole depth: outside it shows what lies there, inside what lies inside.
 Bounds footprint_bounds(const LamarMap& map);
-
-/// Where the map shows the points of a box of any size, conservative; nothing where no bound closer than the
-/// whole displayed volume is known: Cohen's maps, and displacements held in a grid.
-std::optional<Bounds> shown_bounds(const WarpMap& map, const Bounds& box);
 
 } // namespace slicelens

@@ -123,13 +123,17 @@ int piece_of(const VolumeLensMap& map, const glm::dvec3& p) {
   return BoxFunctions().volume_lens_masks(map, texture_from_box({map.size, 1}, p)) ? 1 : 0;
 }
 
-glm::dvec3 object_from_texture(const VolumeLensMap& map, const glm::dvec3& u) {
+glm::dvec3 magnified_from_texture(const VolumeLensMap& map, const glm::dvec3& u) {
   glm::dvec3 t = texture_from_box({map.size, 1}, u);
-  if (!BoxFunctions().volume_lens_masks(map, t))
-    return u;
   for (int axis = 0; axis < 3; ++axis)
     t[axis] = shown_on_axis(t[axis], map.center[axis], map.inner[axis], map.outer[axis], map.magnification);
   return box_from_texture({map.size, 1}, t);
+}
+
+glm::dvec3 object_from_texture(const VolumeLensMap& map, const glm::dvec3& u) {
+  return BoxFunctions().volume_lens_masks(map, texture_from_box({map.size, 1}, u))
+             ? magnified_from_texture(map, u)
+             : u;
 }
 
 glm::dvec3 object_from_texture(const ConnectedLensMap& map, const glm::dvec3& u) {

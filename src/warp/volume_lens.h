@@ -67,6 +67,9 @@ glm::dmat3 jacobian(const ConnectedLensMap& map, const glm::dvec3& p);
 glm::dvec3 object_from_texture(const VolumeLensMap& map, const glm::dvec3& u);
 glm::dvec3 object_from_texture(const ConnectedLensMap& map, const glm::dvec3& u);
 
+/// Where the axes of the lens show u one by one, whether or not the others lie in its box.
+glm::dvec3 magnified_from_texture(const VolumeLensMap& map, const glm::dvec3& u);
+
 /// Whether p lies in the lens' box (1), on whose faces the map jumps, or outside (0).
 int piece_of(const VolumeLensMap& map, const glm::dvec3& p);
 

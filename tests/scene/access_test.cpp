@@ -164,6 +164,8 @@ TEST_CASE("what volumes on disk cannot do is refused by name") {
   CHECK(contains(refusal(cache, R"(,"render":{"shading":"phong","gradient":"prefiltered"})"),
                  "render.gradient 'prefiltered'"));
   CHECK(contains(refusal(stream, R"(,"render":{"levels":2})"), "set volume.access to cache or memory"));
+  CHECK(
+      contains(refusal(stream, R"(,"render":{"footprint":"mip"})"), "render.footprint 'mip' needs coarser"));
   CHECK(contains(refusal(R"("phantom":"head","access":"stream")"), "a phantom has none"));
   CHECK(contains(refusal(R"("phantom":"head","access":"cache")"), "a phantom has none"));
   CHECK(contains(refusal(R"("phantom":"head","cache":"a.bricks")"), "a phantom has none"));

@@ -49,6 +49,19 @@ TEST_CASE("several planes a pass: what is taken and what is refused by name") {
   CHECK(contains(refusal(passes, R"(,"planes":[{"point":[0.5,0.5,0.5]}])"), "remove planes"));
 }
 
+TEST_CASE("labels: what is taken and what is refused by name") {
+  const std::string volume = R"(,"volume":{"phantom":"organs","labels":"organs-labels"})";
+  const std::string whole = volume + R"(,"labels":[{"label":3,"mode":"mip"}])";
+  const std::string unseen = volume + R"(,"labels":[{"label":3,"mode":"mip","visible":false}])";
+  for (const std::string& key : {empty, passes}) {
+    CHECK(refusal(key, volume).empty());
+    CHECK(refusal(key, unseen).empty());
+    CHECK(contains(refusal(key, whole), "use pipeline rays, or mode dvr"));
+  }
+  CHECK(refusal(empty + R"(,"pipeline":"rays")", whole).empty());
+  CHECK(refusal(hidden + R"(,"pipeline":"rays")", whole).empty());
+}
+
 TEST_CASE("samples left out: what is taken and what is refused by name") {
   CHECK(refusal(empty).empty());
   CHECK(refusal(empty + R"(,"pipeline":"rays")").empty());
@@ -59,8 +72,11 @@ TEST_CASE("samples left out: what is taken and what is refused by name") {
   CHECK(contains(refusal(hidden + R"(,"mode":"mip","order":"front-to-back")"), "set render.skip to empty"));
   CHECK(contains(refusal(empty + R"(,"pipeline":"reference")"), "the reference samples everything"));
   CHECK(contains(refusal(empty + R"(,"mode":"average")"), "mode 'average'"));
-  CHECK(contains(refusal(empty + R"(,"mode":"iso","pipeline":"rays")"), "mode 'iso'"));
-  CHECK(contains(refusal(empty + R"(,"classification":"preintegrated")"), "render.classification to post"));
+  CHECK(refusal(empty + R"(,"mode":"iso","pipeline":"rays")").empty());
+  CHECK(contains(refusal(empty + R"(,"mode":"iso")"), "use pipeline rays"));
+  CHECK(contains(refusal(hidden + R"(,"mode":"iso","pipeline":"rays")"), "set render.skip to empty"));
+  CHECK(refusal(hidden + R"(,"classification":"preintegrated","order":"front-to-back")").empty());
+  CHECK(refusal(empty + R"(,"classification":"pre")").empty());
   CHECK(contains(refusal(empty + R"(,"footprint":"mip")"), "render.footprint to point"));
   CHECK(
       contains(refusal(empty + R"(,"pipeline":"tessellated")", twist), "use slices, axis, fragment or grid"));

@@ -33,10 +33,10 @@ std::vector<fs::path> study_files() {
 /// Columns that results may have (study/sweep/results.h, visits.h), beside what varies, metrics and papers.
 std::set<std::string> known_columns(const Study& study) {
   std::set<std::string> known = {
-      "slices",        "triangles",     "draw_calls",      "fragments", "samples",
-      "texture_bytes", "peak_bytes",    "upload_s",        "slice_s",   "tessellate_s",
-      "deform_s",      "draw_s",        "read_s",          "rate",      "processor_rate",
-      "changed_rate",  "samples_per_s", "fragments_per_s", "of_limit"};
+      "slices",     "triangles",   "draw_calls",     "fragments",    "samples",       "texture_bytes",
+      "peak_bytes", "upload_s",    "slice_s",        "tessellate_s", "deform_s",      "draw_s",
+      "read_s",     "rate",        "processor_rate", "changed_rate", "samples_per_s", "fragments_per_s",
+      "of_limit",   "brick_parts", "bricks_loaded",  "read_bytes"};
   known.insert(study.metrics.begin(), study.metrics.end());
   for (const SweepAxis& axis : study.axes) {
     for (const Label& label : axis.values.front().labels)

@@ -72,7 +72,7 @@ TEST_CASE("a copy in bricks gives every volume's voxels, whatever their type and
     write_volume(volume, folder / "b.mha");
     check_equal(cached_volume(source_for(folder / "b.mha"), {}), read_file(folder / "b.mha"));
   }
-  CHECK(cache.files().size() >= 2 * sizes.size());
+  CHECK(cache.files(".bricks").size() >= 2 * sizes.size());
 }
 
 TEST_CASE("coarser levels of a copy are those of the volume in memory") {
@@ -118,8 +118,8 @@ TEST_CASE("a copy is made once, and again when it needs more levels") {
   write_volume(random_volume(ScalarType::u8, {100, 80, 30}), source.file, packed);
   CHECK_FALSE(cached_already(source, {}));
   cached_volume(source, {{}, 2});
-  REQUIRE(cache.files().size() == 1);
-  const fs::path file = cache.files().front();
+  REQUIRE(cache.files(".bricks").size() == 1);
+  const fs::path file = cache.files(".bricks").front();
   const auto time = fs::last_write_time(file);
   REQUIRE(cached_already(source, {{}, 2}));
   CHECK_FALSE(cached_already(source, {{}, 3}));
@@ -130,7 +130,7 @@ TEST_CASE("a copy is made once, and again when it needs more levels") {
   CHECK(more.streamed->coarser.size() == 2);
   check_equal(more, read_volume(source));
   CHECK(fs::last_write_time(file) != time);
-  CHECK(cache.files().size() == 1);
+  CHECK(cache.files(".bricks").size() == 1);
   // Another name of the same contents is the same volume; another spacing has its own place in the world.
   fs::copy(source.file, folder / "b.nrrd");
   CHECK(cached_already(source_for(folder / "b.nrrd"), {}));
@@ -140,6 +140,28 @@ TEST_CASE("a copy is made once, and again when it needs more levels") {
   CHECK(cached_volume(source, {}).spacing == glm::dvec3(0.5, 1.25, 2));
 }
 
+TEST_CASE(
+    "the hash of a source is kept as long as it is not written to, and worked out again where damaged") {
+  const CacheFolder cache;
+  const TemporaryFolder folder;
+  const VolumeSource source = source_for(folder / "a.nrrd");
+  write_volume(random_volume(ScalarType::u8, {30, 20, 10}), source.file, packed);
+  cached_volume(source, {});
+  REQUIRE(cache.files(".sha256").size() == 1);
+  const fs::path kept = cache.files(".sha256").front();
+  const std::string text = bytes_in(kept);
+  CHECK(text.substr(0, 64) == sha256_of({source.file}));
+  for (const std::string& damaged : {flipped(text, 0), flipped(text, 100), text.substr(0, 64), text + "0"}) {
+    write_bytes(kept, damaged);
+    CHECK(cached_already(source, {}).has_value());
+    CHECK(bytes_in(kept) == text);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  write_volume(random_volume(ScalarType::u8, {30, 20, 10}, 1, 8), source.file, packed);
+  CHECK_FALSE(cached_already(source, {}));
+  CHECK(cache.files(".sha256").size() == 2);
+}
+
 TEST_CASE("a chosen frame and component are copied, several components are not") {
   const CacheFolder cache;
   const TemporaryFolder folder;
@@ -147,12 +169,12 @@ TEST_CASE("a chosen frame and component are copied, several components are not")
   VolumeSource source = source_for(folder / "a.nrrd");
   write_volume(volume, source.file, packed);
   CHECK_FALSE(is_streamed(cached_volume(source, {})));
-  CHECK(cache.files().empty());
+  CHECK(cache.files(".bricks").empty());
   for (const int component : {0, 2}) {
     source.component = component;
     check_equal(cached_volume(source, {}), read_volume(source));
   }
-  CHECK(cache.files().size() == 2);
+  CHECK(cache.files(".bricks").size() == 2);
 }
 
 TEST_CASE("a named copy that is cut, damaged or no copy is refused and left as it is") {
@@ -222,7 +244,7 @@ TEST_CASE("a damaged copy in the user's folder is made again, with a warning") {
   const VolumeSource source = source_for(folder / "a.nrrd");
   write_volume(random_volume(ScalarType::i16, {70, 20, 10}), source.file, packed);
   cached_volume(source, {});
-  fs::resize_file(cache.files().front(), 1000);
+  fs::resize_file(cache.files(".bricks").front(), 1000);
   std::string warnings;
   Progress progress;
   progress.warn = [&](const std::string& message) { warnings += message + "\n"; };
@@ -241,7 +263,7 @@ TEST_CASE("where there is no room for a copy nothing is left behind") {
     REQUIRE(child >= 0);
     if (child == 0) {
       const struct rlimit limit { 300000, 300000 }; // the copy needs more than a million bytes
-      ::signal(SIGXFSZ, SIG_IGN); // as the program does
+      ::signal(SIGXFSZ, SIG_IGN);                   // as the program does
       ::setrlimit(RLIMIT_FSIZE, &limit);
       std::string problem;
       try {

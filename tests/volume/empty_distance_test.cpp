@@ -1,6 +1,5 @@
 // Chessboard distances against the definition, cell by cell.
 #include "catch.h"
-
 #include "volume/empty_distance.h"
 
 #include <algorithm>
@@ -25,8 +24,8 @@ std::vector<std::uint8_t> by_definition(const std::array<std::size_t, 3>& size,
         continue;
       const auto a = at(i);
       const auto b = at(j);
-      nearest = std::min(
-          nearest, std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])}));
+      nearest =
+          std::min(nearest, std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])}));
     }
     result.push_back(static_cast<std::uint8_t>(nearest));
   }

@@ -138,6 +138,31 @@ TEST_CASE("sizes and names that cannot be are refused before anything is allocat
   CHECK(message.find("did you mean 'ball'") != std::string::npos);
 }
 
+TEST_CASE("a phantom that is not made yet has its place, type and rows") {
+  const std::array<std::size_t, 3> size{7, 5, 6};
+  for (const PhantomInfo& info : phantoms()) {
+    INFO(info.name);
+    const Volume whole = make_phantom(info.name, size);
+    const PhantomSource source = phantom_source(info.name, size);
+    CHECK(source.volume.voxels.empty());
+    CHECK(source.volume.type == whole.type);
+    CHECK(source.volume.spacing == whole.spacing);
+    CHECK(source.volume.origin == whole.origin);
+    const std::size_t row = whole.voxels.size() / (size[1] * size[2]);
+    std::vector<std::byte> some(3 * row); // across the border of two planes
+    source.rows(4, some);
+    CHECK(std::equal(some.begin(), some.end(), whole.voxels.begin() + static_cast<std::ptrdiff_t>(4 * row)));
+  }
+}
+
+TEST_CASE("the limit of memory does not hold for a phantom that is not made") {
+  const std::array<std::size_t, 3> large{2048, 2048, 2048}; // 16 GiB of 16 bits
+  CHECK_THROWS_AS(make_phantom("head", large), LimitError);
+  CHECK(phantom_source("head", large).volume.dims == large);
+  CHECK_THROWS_AS(phantom_source("head", {kMaxPhantomEdge + 1, 1, 1}), LimitError);
+  CHECK_THROWS_AS(phantom_source("head", {1, 0, 1}), UsageError);
+}
+
 TEST_CASE("progress runs from 0 to 1") {
   double last = -1;
   bool rising = true;

@@ -4,8 +4,10 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <functional>
 
 using namespace slicelens;
 namespace fs = std::filesystem;
@@ -94,6 +96,109 @@ TEST_CASE("statistics of a volume that was read are those of its values") {
   CHECK(read.non_finite == 1);
 }
 
+namespace {
+
+/// The rows of a volume that is there.
+RowSource rows_of(const Volume& volume) {
+  return [&volume](std::size_t first, std::span<std::byte> out) {
+    const std::size_t row = voxel_bytes(volume) / (volume.dims[1] * volume.dims[2]);
+    std::memcpy(out.data(), volume.voxels.data() + first * row, out.size());
+  };
+}
+
+std::vector<std::pair<std::string, std::string>> files_in(const fs::path& folder) {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::ifstream in(entry.path(), std::ios::binary);
+    files.emplace_back(entry.path().filename().string(), std::string(std::istreambuf_iterator<char>(in), {}));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Whether writing fails with one line that names `path`, where no file may be larger than 100 000 bytes: a
+/// full disk in small, writes beyond it fail (EFBIG).
+void check_fails_when_full(const fs::path& path, const std::function<void()>& write) {
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{100000, 100000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    int result = 1;
+    try {
+      write();
+    } catch (const FileError& error) {
+      const std::string text = error.what();
+      result = contains(text, path.string()) && !contains(text, "\n") ? 0 : 2;
+    }
+    ::_exit(result);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+}
+
+} // namespace
+
+TEST_CASE("rows are written as the whole volume is, byte for byte") {
+  for (const char* name : {"a.nrrd", "a.nhdr", "a.mha", "a.mhd"}) {
+    for (const ScalarType type : all_types) {
+      for (const int components : {1, 3}) {
+        CAPTURE(name, name_of(type), components);
+        const TemporaryFolder whole;
+        const TemporaryFolder streamed;
+        const Volume volume = oblique(type, components);
+        write_volume(volume, whole / name);
+        Volume empty = volume;
+        empty.voxels.clear();
+        write_rows(empty, rows_of(volume), streamed / name);
+        CHECK(files_in(whole.path()) == files_in(streamed.path()));
+      }
+    }
+  }
+}
+
+TEST_CASE("rows are asked for in order and in parts") {
+  const TemporaryFolder folder;
+  Volume volume;
+  volume.dims = {1 << 20, 7, 10}; // 70 MiB: three parts of at most 32
+  volume.type = ScalarType::u8;
+  std::size_t next = 0;
+  std::size_t largest = 0;
+  write_rows(
+      volume,
+      [&](std::size_t first, std::span<std::byte> out) {
+        CHECK(first == next);
+        next += out.size() >> 20;
+        largest = std::max(largest, out.size());
+        std::fill(out.begin(), out.end(), std::byte{0});
+      },
+      folder / "a.mha");
+  CHECK(next == 70);
+  CHECK(largest == std::size_t{32} << 20);
+}
+
+TEST_CASE("a disk without room is named before anything is written") {
+  const TemporaryFolder folder;
+  Volume volume;
+  volume.dims = {std::size_t{1} << 20, std::size_t{1} << 20, std::size_t{1} << 10}; // a pebibyte
+  volume.type = ScalarType::u8;
+  bool asked = false;
+  std::string message;
+  try {
+    write_rows(
+        volume, [&](std::size_t, std::span<std::byte>) { asked = true; }, folder / "a.nhdr");
+  } catch (const FileError& error) {
+    message = error.what();
+  }
+  CHECK_FALSE(asked);
+  CHECK(contains(message, (folder / "a.nhdr").string()));
+  CHECK(contains(message, "1048576 GiB"));
+  CHECK(fs::is_empty(folder.path()));
+}
+
 TEST_CASE("an existing file stays unharmed when a volume cannot be written") {
   const TemporaryFolder folder;
   const Volume small = oblique(ScalarType::u8, 1);
@@ -103,26 +208,9 @@ TEST_CASE("an existing file stays unharmed when a volume cannot be written") {
   for (const char* name : {"a.nrrd", "a.mha", "a.mhd", "a.nhdr"}) {
     CAPTURE(name);
     write_volume(small, folder / name);
-    const pid_t child = ::fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-      // A file size limit is a full disk in small: writes beyond it fail (EFBIG).
-      ::signal(SIGXFSZ, SIG_IGN);
-      const rlimit limit{100000, 100000};
-      ::setrlimit(RLIMIT_FSIZE, &limit);
-      int result = 1;
-      try {
-        write_volume(large, folder / name);
-      } catch (const FileError& error) {
-        const std::string text = error.what();
-        result = contains(text, (folder / name).string()) && !contains(text, "\n") ? 0 : 2;
-      }
-      ::_exit(result);
-    }
-    int status = -1;
-    ::waitpid(child, &status, 0);
-    REQUIRE(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 0);
+    check_fails_when_full(folder / name, [&] { write_volume(large, folder / name); });
+    check_same(small, read_file(folder / name));
+    check_fails_when_full(folder / name, [&] { write_rows(large, rows_of(large), folder / name); });
     check_same(small, read_file(folder / name));
   }
   // Four names, two of them with a data file beside; nothing temporary is left.

@@ -19,11 +19,14 @@ public:
   CacheFolder() { ::setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1); }
   ~CacheFolder() { ::unsetenv("XDG_CACHE_HOME"); }
   std::filesystem::path path() const { return folder_ / "slicelens"; }
-  std::vector<std::filesystem::path> files() const {
+  /// Those of one kind: ".scan", ".bricks" or ".sha256".
+  std::vector<std::filesystem::path> files(const std::string& extension) const {
     std::vector<std::filesystem::path> found;
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(path(), error))
-      found.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(path(), error)) {
+      if (entry.path().extension() == extension)
+        found.push_back(entry.path());
+    }
     return found;
   }
 

@@ -304,11 +304,11 @@ TEST_CASE("a scan is kept until the file changes, and made again where it is dam
     return stream_volume(source_for(file), progress)->streamed->stream->bytes_read();
   };
   CHECK(bytes() == 120000);
-  REQUIRE(cache.files().size() == 1);
+  REQUIRE(cache.files(".scan").size() == 1);
   CHECK(bytes() == 0);
   check_streams(source_for(file));
   // Damaged in every part, and cut: it is made again, and says why.
-  const fs::path kept = cache.files().front();
+  const fs::path kept = cache.files(".scan").front();
   const std::uintmax_t size = fs::file_size(kept);
   for (const std::uintmax_t at : {std::uintmax_t{0}, std::uintmax_t{9}, size / 2, size - 1}) {
     CAPTURE(at);

@@ -92,5 +92,6 @@ void grid_section(const Bench& bench);
 void preintegrated_section(const Bench& bench);
 void mode_section(const Bench& bench);
 void filter_section(const Bench& bench);
+void skip_section(const Bench& bench);
 
 } // namespace slicelens::accuracy

@@ -32,7 +32,8 @@ const std::vector<Section>& sections() {
                                             {"footprint", footprint_section},
                                             {"grids", grid_section},
                                             {"preintegrated", preintegrated_section},
-                                            {"vessels", vessel_section}};
+                                            {"vessels", vessel_section},
+                                            {"skip", skip_section}};
   return list;
 }
 

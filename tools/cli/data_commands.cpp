@@ -20,9 +20,11 @@ void add_info(CLI::App& app, InfoOptions& options, std::function<void()>& run) {
 
 void add_phantom(CLI::App& app, PhantomOptions& options, std::function<void()>& run) {
   CLI::App& command = *app.add_subcommand("phantom", "write an embedded phantom as a volume file");
-  command.footer("  slicelens phantom head --size 128 -o head.nrrd");
+  command.footer(
+      "  slicelens phantom head --size 128 -o head.nrrd\n"
+      "  slicelens phantom head --size 2048 2048 1024 -o big.nrrd     16 bits, 8 GiB, made row by row");
   command.add_option("name", options.name, "see: slicelens list phantoms")->required()->type_name("");
-  command.add_option("-o,--output", options.output, "volume to write: .nrrd, .mha or .mhd")
+  command.add_option("-o,--output", options.output, "volume to write: .nrrd, .nhdr, .mha or .mhd")
       ->required()
       ->type_name("FILE");
   command.add_option("--size", options.size, "voxels: one number for a cube, or three")

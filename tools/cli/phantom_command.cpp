@@ -16,8 +16,8 @@ void run_phantom(const PhantomOptions& options) {
     size = {options.size[0], options.size[1], options.size[2]};
   if (options.size.size() == 2)
     throw UsageError("--size takes one number for a cube, or three");
-  const Volume volume = make_phantom(options.name, size, console_progress());
-  write_volume(volume, options.output);
+  const PhantomSource source = phantom_source(options.name, size);
+  write_rows(source.volume, source.rows, options.output, console_progress());
   end_progress();
   std::printf("%s\n", options.output.c_str());
 }

@@ -94,9 +94,9 @@ void print_verbose(const RenderResult& result, const PreparedScene& prepared, do
   for (const PoolCounts& pool : result.pools) {
     std::fprintf(
         stderr,
-        "bricks     %zu of %zu pages needed, a pool of %zu bricks, %zu loaded in %zu parts, %.1f MiB "
-        "read from disk\n",
-        pool.needed, pool.pages, pool.capacity, pool.loads, pool.parts,
+        "bricks     %zu of %zu pages needed, a pool of %zu bricks\n           %zu loaded in %zu parts "
+        "and %.3f s, %.1f MiB read from disk\n",
+        pool.needed, pool.pages, pool.capacity, pool.loads, pool.parts, pool.seconds,
         static_cast<double>(pool.read_bytes) / (1 << 20));
   }
   if (result.slices > 0)
