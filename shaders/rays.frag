@@ -85,6 +85,12 @@ vec4 first_surface(PixelRay ray, int first, int last, float offset) {
 }
 #endif
 #include "gpu/gather.glsl"
+#if defined(EARLY_TERMINATION) && defined(MODE_DVR)
+#define END_OPACITY early_termination
+#endif
+#if !defined(MODE_ISO) && !defined(LOCAL_MODES) && !defined(PREINTEGRATED)
+#include "gpu/march.glsl"
+#endif
 
 #ifdef CUT_PLANES
 // The nearest cutting plane on the ray: its distance (beyond the interval: none) and colour. Planes are not cut by clipping planes.
@@ -150,43 +156,40 @@ void main() {
     vec4 hit = first_surface(ray, first, last, offset);
     if (hit.w > 0.0) gathered = vec4(surface_color(hit.xyz, to_eye), 1.0);
 #else
-#ifdef LOCAL_MODES
+#if defined(LOCAL_MODES)
     TwoLevel state = nothing_gathered();
-#endif
-#ifdef PREINTEGRATED
-    float front = end_texel(ray_point(ray, float(first) - 0.5));
-#endif
     for (int k = first; k <= last; ++k) {
-#if defined(OCCUPANCY) && defined(PREINTEGRATED)
+#ifdef OCCUPANCY
+      int next = next_occupied(ray, k, last, offset);
+      if (next > last) break;
+      if (next > k) state = ended_run(state, xray_scale);  // what was passed over is no part of it
+      k = next;
+#endif
+      state = gather_objects(state, ray_point(ray, float(k) + offset), to_eye);
+      gathered = state.gathered;
+#ifdef END_OPACITY
+      if (gathered.a >= END_OPACITY) break;
+#endif
+    }
+    gathered = ended_run(state, xray_scale).gathered;
+#elif defined(PREINTEGRATED)
+    float front = end_texel(ray_point(ray, float(first) - 0.5));
+    for (int k = first; k <= last; ++k) {
+#ifdef OCCUPANCY
       int next = next_between(ray, k, last, -0.5);
       if (next > last) break;
       front = front_after(ray, next, next > k, front);
       k = next;
-#elif defined(OCCUPANCY)
-      int next = next_occupied(ray, k, last, offset);
-      if (next > last) break;
-#ifdef LOCAL_MODES
-      if (next > k) state = ended_run(state, xray_scale);  // what was passed over is no part of it
 #endif
-      k = next;
-#endif
-      vec3 p = ray_point(ray, float(k) + offset);
-#if defined(LOCAL_MODES)
-      state = gather_objects(state, p, to_eye);
-      gathered = state.gathered;
-#elif defined(PREINTEGRATED)
       float back = end_texel(ray_point(ray, float(k) + 0.5));
-      gathered = gather_segment(gathered, p, to_eye, vec2(front, back));
+      gathered = gather_segment(gathered, ray_point(ray, float(k) + offset), to_eye, vec2(front, back));
       front = back;
-#else
-      gathered = gather(gathered, p, to_eye);
-#endif
-#if defined(EARLY_TERMINATION) && defined(MODE_DVR)
-      if (gathered.a >= early_termination) break;
+#ifdef END_OPACITY
+      if (gathered.a >= END_OPACITY) break;
 #endif
     }
-#ifdef LOCAL_MODES
-    gathered = ended_run(state, xray_scale).gathered;
+#else
+    gathered = gathered_along(gathered, ray, first, last, offset, to_eye);
 #endif
 #endif
   }

@@ -56,6 +56,12 @@ float sample_ratio() { return distance_ratio * stretch(); }
 
 #include "gpu/segments.glsl"
 #include "gpu/gather.glsl"
+#ifdef HIDDEN
+#define END_OPACITY nothing_behind
+#endif
+#ifndef PREINTEGRATED
+#include "gpu/march.glsl"
+#endif
 
 // This fragment's ray by distances along the view axis, so that plane k is its sample k.
 PixelRay ray_over_planes() {
@@ -110,24 +116,14 @@ void main() {
     int last = int(min(last_sample(interval.y - offset * delta, delta), planes.y));
 #ifdef PREINTEGRATED
     float front = end_texel(ray_point(ray, float(first) - 0.5));
-#endif
     for (int k = first; k <= last; ++k) {
-#ifdef OCCUPANCY
-      k = next_occupied(ray, k, last, offset);
-      if (k > last) break;
-#endif
-      vec3 p = ray_point(ray, float(k) + offset);
-#if defined(PREINTEGRATED)
       float back = end_texel(ray_point(ray, float(k) + 0.5));
-      gathered = gather_segment(gathered, p, to_eye, vec2(front, back));
+      gathered = gather_segment(gathered, ray_point(ray, float(k) + offset), to_eye, vec2(front, back));
       front = back;
-#else
-      gathered = gather(gathered, p, to_eye);
-#endif
-#ifdef HIDDEN
-      if (gathered.a >= nothing_behind) break;
-#endif
     }
+#else
+    gathered = gathered_along(gathered, ray, first, last, offset, to_eye);
+#endif
   }
 #if defined(MODE_MIP) && !defined(VOLUMES)
   if (gathered.w == 0.0) discard;

@@ -243,7 +243,11 @@ void main() {
   result = vec4(unit, 0.0, 0.0, 1.0);
 #endif
 #else
+#ifdef ONE_FETCH
+  vec4 sample_color = lit_color(texture_coordinate, object_coordinate, direction_to_eye(object_coordinate));
+#else
   vec4 sample_color = plain_color(texture_coordinate, object_coordinate);
+#endif
 #if defined(MODE_XRAY)
 #if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)
   float weight = sample_color.a * sample_ratio();
@@ -257,7 +261,7 @@ void main() {
   result = vec4(weight);
 #endif
 #else
-#ifdef SHADED
+#if defined(SHADED) && !defined(ONE_FETCH)
   sample_color.rgb = shade(sample_color.rgb, texture_coordinate, object_coordinate, direction_to_eye(object_coordinate));
 #endif
 #ifdef FOCUS_EFFECTS

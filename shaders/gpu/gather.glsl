@@ -41,6 +41,44 @@ TwoLevel gather_objects(TwoLevel state, vec3 p, vec3 to_eye) {
   return with_object(state, t, p, to_eye, focus, sample_ratio());
 }
 #elif !defined(PREINTEGRATED)
+#if defined(SHADED) && defined(MODE_DVR) && !defined(CLASSIFICATION_PRE)
+// A sample's straight colour and opacity per reference length before any light, at the point p of what is displayed; nothing
+// where the data are cut away.
+vec4 color_without_light(vec3 p) {
+#if defined(AXIS_TABLES)
+  vec3 t = axis_texture_from_object(fetch_axis_tables(p), p);
+  return in_data_planes(t) ? plain_color(t, p) : vec4(0.0);
+#elif defined(WARPED)
+  vec3 t = texture_from_object(p);
+  return in_volume(t) && in_data_planes(t) ? plain_color(t, p) : vec4(0.0);
+#else
+  return plain_color(p, p);
+#endif
+}
+
+// One more sample, of the colour that color_without_light has given for p.
+vec4 gather_colored(vec4 gathered, vec4 color, vec3 p, vec3 to_eye) {
+#if defined(AXIS_TABLES)
+  AxisTexels texels = fetch_axis_tables(p);
+  vec3 t = axis_texture_from_object(texels, p);
+#elif defined(WARPED)
+  vec3 t = texture_from_object(p);
+#else
+  vec3 t = p;
+#endif
+  vec4 lit = vec4(shade(color.rgb, t, p, to_eye), color.a);
+#if defined(FOCUS_EFFECTS) && defined(AXIS_TABLES)
+  lit = with_effects(lit, axis_effects(texels));
+#elif defined(FOCUS_EFFECTS)
+  lit = with_effects(lit, effects_at(p));
+#endif
+#if defined(CORRECT_CONSTANT) || defined(CORRECT_FRAGMENT)
+  lit.a = corrected_opacity(lit.a, sample_ratio());
+#endif
+  return under(gathered, associated(lit.rgb, lit.a));
+}
+#endif
+
 vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #if defined(AXIS_TABLES)
   AxisTexels texels = fetch_axis_tables(p);
@@ -87,7 +125,11 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
 #endif
 #endif
 #else
+#ifdef ONE_FETCH
+  vec4 sample_color = lit_color(t, p, to_eye);
+#else
   vec4 sample_color = plain_color(t, p);
+#endif
 #if defined(MODE_XRAY)
 #ifdef FOCUS_EFFECTS
   vec4 grey = with_effects(vec4(1.0, 1.0, 1.0, sample_color.a * sample_ratio()), focus);
@@ -96,7 +138,7 @@ vec4 gather(vec4 gathered, vec3 p, vec3 to_eye) {
   return gathered + vec4(sample_color.a * sample_ratio());
 #endif
 #else
-#ifdef SHADED
+#if defined(SHADED) && !defined(ONE_FETCH)
   sample_color.rgb = shade(sample_color.rgb, t, p, to_eye);
 #endif
 #ifdef FOCUS_EFFECTS

@@ -57,12 +57,15 @@ vec3 gradient_at(vec3 t, vec3 p) {
 }
 #endif
 
-// By texture coordinates of the displayed volume. `t`: where the data is looked at; `p`: where it is shown.
-vec3 shown_gradient(vec3 t, vec3 p) {
+// A gradient of the data as one of what is shown at p.
+vec3 carried_gradient(vec3 gradient, vec3 p) {
 #if (defined(WARPED) || defined(AXIS_TABLES)) && !defined(GRADIENT_IN_OBJECT_SPACE)
-  return displayed_gradient(gradient_at(t, p), p);
+  return displayed_gradient(gradient, p);
 #else
-  return gradient_at(t, p);
+  return gradient;
 #endif
 }
+
+// By texture coordinates of the displayed volume. `t`: where the data is looked at; `p`: where it is shown.
+vec3 shown_gradient(vec3 t, vec3 p) { return carried_gradient(gradient_at(t, p), p); }
 #endif

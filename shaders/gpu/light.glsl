@@ -42,9 +42,9 @@ uniform vec3 cool;
 uniform vec3 warm;
 uniform bool two_sided;
 
-// `t`: where the data is looked at; `p`: where it is shown.
-vec3 shade(vec3 color, vec3 t, vec3 p, vec3 to_eye) {
-  vec3 gradient = world_from_gradient * shown_gradient(t, p);
+// `by_texture`: the gradient of what is shown, by texture coordinates.
+vec3 shade_with(vec3 color, vec3 by_texture, vec3 to_eye) {
+  vec3 gradient = world_from_gradient * by_texture;
 #ifdef LIGHT_AT_EYE
   vec3 light = to_eye;
 #else
@@ -58,4 +58,18 @@ vec3 shade(vec3 color, vec3 t, vec3 p, vec3 to_eye) {
   return color * diffuse_factor(gradient, light, ambient, diffuse, two_sided);
 #endif
 }
+
+// `t`: where the data is looked at; `p`: where it is shown.
+vec3 shade(vec3 color, vec3 t, vec3 p, vec3 to_eye) { return shade_with(color, shown_gradient(t, p), to_eye); }
+
+#if defined(VALUE_WITH_GRADIENT) && !defined(MODULATED) && !defined(TRANSFER_2D) && !defined(LABELS)
+#define ONE_FETCH
+// Colour with light and opacity from the texture that holds both.
+vec4 lit_color(vec3 t, vec3 p, vec3 to_eye) {
+  vec4 both = linear_texels(gradient_texture, t);
+  vec4 color = classify_texel(both.a);
+  color.rgb = shade_with(color.rgb, carried_gradient(gradient_scale * both.rgb, p), to_eye);
+  return color;
+}
+#endif
 #endif

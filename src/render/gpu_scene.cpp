@@ -1,7 +1,6 @@
 #include "render/gpu_scene.h"
 
 #include "render/grid_textures.h"
-#include "render/occupancy.h"
 #include "render/pre_classification.h"
 #include "scene/names.h"
 #include "volume/pyramid.h"
@@ -105,22 +104,6 @@ void upload_all(const gl::Functions& gl, const PreparedScene& prepared, const Te
   }
 }
 
-/// What rays pass over. Slices know it before they are drawn (render/pass_tiles.h).
-void upload_occupancy(const gl::Functions& gl, const PreparedScene& prepared, GpuScene& scene) {
-  const RenderSettings& render = prepared.scene.render;
-  if (!prepared.skipping.empty || render.pipeline != Pipeline::rays)
-    return;
-  const Occupancy occupancy = occupancy_of(prepared);
-  gl::TextureSpec spec;
-  spec.format = GL_R8;
-  spec.filter = GL_NEAREST;
-  const auto& size = occupancy.size;
-  scene.occupancy = gl::make_texture_3d(
-      gl, spec, {static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])},
-      std::as_bytes(std::span(occupancy.stretches)));
-  scene.bytes += occupancy.stretches.size();
-}
-
 } // namespace
 
 TransferTable drawn_table(const PreparedScene& prepared) {
@@ -154,7 +137,7 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
   const TexelCoding coding = texel_coding(prepared);
   scene.format = coding.format;
   upload_all(gl, prepared, coding, scene, progress);
-  scene.gradients = upload_gradients(gl, prepared, progress);
+  scene.gradients = upload_gradients(gl, prepared, coding.value_from_texel, progress);
   scene.value_from_texel = coding.value_from_texel;
   scene.texture = word(scene.format);
   scene.transfer = upload_transfer(gl, prepared, scene);
@@ -169,7 +152,8 @@ GpuScene upload(const gl::Functions& gl, const PreparedScene& prepared, const Pr
   if (!prepared.scene.transfer.shapes.empty())
     upload_transfer_2d(gl, prepared, scene);
   scene.bytes += upload_segments(gl, prepared, scene);
-  upload_occupancy(gl, prepared, scene);
+  scene.occupancy = upload_occupancy(gl, prepared);
+  scene.bytes += scene.occupancy.bytes;
   scene.labels = upload_labels(gl, prepared, progress);
   scene.bytes += scene.labels.bytes;
   for (const PreparedScene& other : prepared.others) {

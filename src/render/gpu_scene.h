@@ -7,6 +7,7 @@
 #include "render/bricks.h"
 #include "render/gradient_texture.h"
 #include "render/label_textures.h"
+#include "render/occupancy_texture.h"
 #include "render/prepare.h"
 #include "render/texels.h"
 
@@ -36,7 +37,7 @@ struct GpuScene {
   GradientTexture gradients;      ///< for shading
   AxisTextures axis;              ///< empty but under pipeline `axis`
   std::vector<gl::Texture> grids; ///< of the maps that are held in grids, in their order
-  gl::Texture occupancy;          ///< 3D, one texel a cell: render.skip under pipeline `rays`
+  OccupancyTexture occupancy;     ///< render.skip
   LabelTextures labels;           ///< mode `two-level` only
   std::vector<GpuScene> others;   ///< of the volumes after the first
 };

@@ -184,8 +184,9 @@ bool looks_between_samples(const RenderSettings& render) {
   return render.mode == Mode::iso || render.classification == Classification::preintegrated;
 }
 
-Occupancy occupancy_of(const PreparedScene& prepared) {
-  const CellRanges& cells = *prepared.cells;
+Occupancy occupancy_of(const PreparedScene& prepared) { return occupancy_of(prepared, *prepared.cells); }
+
+Occupancy occupancy_of(const PreparedScene& prepared, const CellRanges& cells) {
   const StretchOf stretch = stretch_of(prepared);
   const double rounding = rounding_of(prepared);
   Occupancy result;
@@ -234,10 +235,10 @@ Skipping skipping_of(const PreparedScene& prepared) {
   return skipping;
 }
 
-CellBox cell_box(const PreparedScene& prepared, std::size_t index) {
-  const auto& size = prepared.cells->size;
+CellBox cell_box(const PreparedScene& prepared, const CellRanges& cells, std::size_t index) {
+  const auto& size = cells.size;
   const auto& dims = prepared.volume.dims;
-  const glm::dvec3 edge = static_cast<double>(cell_edge) / glm::dvec3(dims[0], dims[1], dims[2]);
+  const glm::dvec3 edge = static_cast<double>(cells.edge) / glm::dvec3(dims[0], dims[1], dims[2]);
   const glm::dvec3 at(index % size[0], index / size[0] % size[1], index / size[0] / size[1]);
   return {at * edge, glm::min((at + 1.0) * edge, glm::dvec3(1))};
 }

@@ -29,6 +29,8 @@ struct Occupancy {
 /// which has no table, the latter up to the next texels of its own. Conservative, never wrong. Needs
 /// prepared.cells.
 Occupancy occupancy_of(const PreparedScene& prepared);
+/// The same of other cells of the same volume; mode `two-level` knows the labels in prepared.cells only.
+Occupancy occupancy_of(const PreparedScene& prepared, const CellRanges& cells);
 
 /// Whether samples show what lies between two places: surfaces, and segments that are integrated beforehand.
 bool looks_between_samples(const RenderSettings& render);
@@ -43,11 +45,11 @@ inline constexpr double opaque_enough = 1 - 1.0 / 512;
 /// Needs prepared.cells and everything but the view's own geometry.
 Skipping skipping_of(const PreparedScene& prepared);
 
-/// The texture coordinates of cell `index`: its lowest corner and its highest, at most 1.
+/// The texture coordinates of cell `index` of `cells`: its lowest corner and its highest, at most 1.
 struct CellBox {
   glm::dvec3 low{0};
   glm::dvec3 high{1};
 };
-CellBox cell_box(const PreparedScene& prepared, std::size_t index);
+CellBox cell_box(const PreparedScene& prepared, const CellRanges& cells, std::size_t index);
 
 } // namespace slicelens

@@ -99,7 +99,7 @@ PassTiles tiles_of_passes(const PreparedScene& prepared, std::int64_t first, std
   tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
     if (occupancy.shows[i] == 0)
       return;
-    const CellBox cell = cell_box(prepared, i);
+    const CellBox cell = cell_box(prepared, *prepared.cells, i);
     if (between)
       shown[i] = shown_part(with_edge({cell.low, cell.high}));
     else if (!is_cut_away(prepared.data_clip, cell.low, cell.high))

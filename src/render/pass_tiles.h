@@ -10,7 +10,10 @@
 namespace slicelens {
 
 /// Pixels along the edge of a tile.
-inline constexpr int tile_edge = 8;
+inline constexpr int tile_edge = 16;
+
+/// Pixels of the least number of tiles that cover `pixels`.
+constexpr int whole_tiles(int pixels, int edge) { return (pixels + edge - 1) / edge * edge; }
 
 /// Plane numbers, first ≤ last; none: first > last.
 struct PlaneSpan {

@@ -38,6 +38,7 @@ void set_volume(PreparedScene& prepared, Volume volume) {
   prepared.file_geometry = {prepared.volume.spacing, prepared.volume.origin, prepared.volume.direction};
   prepared.pyramid.clear();
   prepared.cells.reset();
+  prepared.small_cells.reset();
 }
 
 PreparedScene prepare(Scene scene, Volume volume, TransferFunction transfer, std::vector<LoadedVolume> others,
@@ -202,6 +203,8 @@ void prepare_cells(PreparedScene& prepared) {
     prepared.cells = cell_ranges(prepared.volume, reach);
   if (render.skip == Skip::none)
     return;
+  if (!on_disk && (!prepared.small_cells || prepared.small_cells->reach != reach))
+    prepared.small_cells = cell_ranges(prepared.volume, reach, small_cell_edge);
   prepare_label_cells(prepared);
   prepared.skipping = skipping_of(prepared);
 }

@@ -70,7 +70,9 @@ struct PreparedScene {
   std::size_t levels = 1;          ///< of the pyramid: render.levels, or what render.footprint needs of them
   std::vector<Volume> pyramid;     ///< levels 1, 2 … (volume/pyramid.h)
   std::optional<CellRanges> cells; ///< where render.skip needs them
-  Skipping skipping;               ///< under this transfer function
+  /// What fragments leap over under render.skip; none of a volume on disk, where `cells` serve for this too.
+  std::optional<CellRanges> small_cells;
+  Skipping skipping; ///< under this transfer function
   glm::dvec3 object_low{
       0}; ///< bounds of the displayed volume, texture coordinates: the unit cube without a warp
   glm::dvec3 object_high{1};

@@ -20,10 +20,6 @@ namespace slicelens {
 
 namespace {
 
-/// Texture unit of the occupied cells: behind those of labels, of a pyramid's levels, beside which
-/// render.skip is refused.
-constexpr GLenum occupancy_unit = 6;
-
 double ray_end_opacity(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
   return render.skip == Skip::empty_and_hidden ? std::min(render.early_termination, opaque_enough)
@@ -65,7 +61,7 @@ RayRenderer::RayRenderer(const gl::Functions& gl, const PreparedScene& prepared)
   std::vector<std::string> macros = common_macros(prepared);
   if (ray_end_opacity(prepared) < 1)
     macros.emplace_back("EARLY_TERMINATION");
-  if (prepared.skipping.empty)
+  if (uses_occupancy(prepared))
     macros.emplace_back("OCCUPANCY");
   if (!prepared.scene.planes.empty())
     macros.push_back("CUT_PLANES " + std::to_string(prepared.scene.planes.size()));
@@ -96,14 +92,7 @@ void RayRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, con
   set_ray_uniforms(gl, program_, prepared);
   set_uniform(gl, program_, "xray_scale", static_cast<float>(prepared.xray_scale));
   set_uniform(gl, program_, "early_termination", static_cast<float>(ray_end_opacity(prepared)));
-  if (scene.occupancy) {
-    gl.ActiveTexture(GL_TEXTURE0 + occupancy_unit);
-    gl.BindTexture(GL_TEXTURE_3D, scene.occupancy.name());
-    set_uniform(gl, program_, "occupancy", static_cast<int>(occupancy_unit));
-    const auto& dims = prepared.volume.dims;
-    set_uniform(gl, program_, "cells_from_texture",
-                glm::vec3(dims[0], dims[1], dims[2]) / static_cast<float>(cell_edge));
-  }
+  set_occupancy(gl, program_, scene.occupancy);
   set_uniform(gl, program_, "world_from_direction", glm::mat3(prepared.box.world_from_texture));
   const std::vector<CutPlane> shown = cut_planes(prepared);
   for (std::size_t i = 0; i < shown.size(); ++i)

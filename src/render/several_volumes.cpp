@@ -25,11 +25,11 @@ const std::vector<std::string>& own_names() {
       "displayed_gradient", "in_volume", "data_plane_count", "data_planes", "in_data_planes",
       // gpu/gradient.glsl, lib/gradient.glsl
       "voxel", "gradient_texture", "gradient_scale", "gradient_at", "tap", "gradient_value",
-      "forward_gradient", "central_gradient", "shown_gradient",
+      "forward_gradient", "central_gradient", "carried_gradient", "shown_gradient",
       // gpu/light.glsl
       "world_from_gradient", "to_light", "ambient", "diffuse", "specular", "power", "cool", "warm",
-      "two_sided", "shade", "opacity_factor", "plain_color", "transfer_2d_texture", "transfer_2d_place",
-      "classify_2d", "full_gradient",
+      "two_sided", "shade_with", "shade", "opacity_factor", "plain_color", "transfer_2d_texture",
+      "transfer_2d_place", "classify_2d", "full_gradient",
       // gpu/one_volume.glsl
       "own_from_first", "length_ratio", "unit_from_value", "own_sample", "own_unit", "own_color"};
   return names;

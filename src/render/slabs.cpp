@@ -107,31 +107,20 @@ std::vector<glm::dvec2> outline(const PreparedScene& prepared, const glm::dmat4&
   return convex_hull(std::move(points));
 }
 
-glm::dvec2 place_of_tile(const View& view, int column, int row) {
-  return glm::dvec2(tile_edge * glm::ivec2(column, row)) / glm::dvec2(view.width, view.height) * 2.0 - 1.0;
-}
-
-/// The tiles of a pass that show something, neighbours in a row with the same planes as one rectangle. Their
-/// edges lie between pixels, so none is drawn twice.
-void append_tiles(StackGeometry& geometry, const View& view, const PassTiles& tiles, const Slab& slab,
-                  std::size_t pass) {
-  const auto columns = static_cast<std::size_t>(tiles.columns);
+/// The tiles of a pass that show something.
+void append_tiles(StackGeometry& geometry, const PassTiles& tiles, const Slab& slab, std::size_t pass) {
+  const glm::dvec2 size(tiles.columns, tiles.rows);
+  const PlaneSpan* spans = tiles.spans.data() + pass * static_cast<std::size_t>(tiles.columns * tiles.rows);
   for (int row = 0; row < tiles.rows; ++row) {
-    const PlaneSpan* spans =
-        tiles.spans.data() +
-        (pass * static_cast<std::size_t>(tiles.rows) + static_cast<std::size_t>(row)) * columns;
-    for (int column = 0; column < tiles.columns;) {
-      const PlaneSpan span = spans[column];
-      const int begin = column;
-      while (column < tiles.columns && spans[column].first == span.first && spans[column].last == span.last)
-        ++column;
+    for (int column = 0; column < tiles.columns; ++column) {
+      const PlaneSpan span = *spans++;
       const auto first = std::max<std::int64_t>(span.first, slab.first);
       const auto last = std::min<std::int64_t>(span.last, slab.last);
       if (first > last)
         continue;
-      const glm::dvec2 low = place_of_tile(view, begin, row);
-      const glm::dvec2 high = place_of_tile(view, column, row + 1);
-      append_polygon(geometry, {low, {high.x, low.y}, high, {low.x, high.y}}, first, last);
+      const glm::dvec2 middle = (glm::dvec2(column, row) + 0.5) / size * 2.0 - 1.0;
+      geometry.indices.push_back(static_cast<std::uint32_t>(geometry.vertices.size()));
+      geometry.vertices.push_back({glm::vec3(glm::dvec3(middle, 0)), glm::vec4(first, last, 0, 1)});
     }
   }
 }
@@ -163,9 +152,10 @@ StackGeometry make_slab_geometry(const PreparedScene& prepared) {
     tiles = tiles_of_passes(prepared, std::min(slabs.front().first, slabs.back().first),
                             std::max(slabs.front().last, slabs.back().last));
   }
+  geometry.tile_edge = tiles.passes > 0 ? tile_edge : 0;
   for (const Slab& slab : slabs) {
     if (tiles.passes > 0) {
-      append_tiles(geometry, prepared.view, tiles, slab,
+      append_tiles(geometry, tiles, slab,
                    static_cast<std::size_t>(pass_of(slab.first, per_pass) - tiles.first_pass));
     } else {
       append_polygon(geometry, outline(prepared, to_clip, stack, slab), slab.first, slab.last);

@@ -1,9 +1,11 @@
 #include "render/slices.h"
 
+#include "core/errors.h"
 #include "gl/check.h"
 #include "gl/state.h"
 #include "gl/timer.h"
 #include "render/paged_draw.h"
+#include "render/pass_tiles.h"
 #include "render/ray_uniforms.h"
 #include "render/several_volumes.h"
 #include "render/shaders.h"
@@ -67,6 +69,20 @@ void set_blending(const gl::Functions& gl, const RenderSettings& render) {
   }
 }
 
+/// Tiles are drawn as points: squares that lie on the pixels exactly and, unlike pairs of triangles, have no
+/// diagonal along which drivers shade twice. The viewport is one of whole tiles, as a point whose middle is
+/// outside is not drawn.
+void begin_tiles(const gl::Functions& gl, const gl::Target& target, int edge) {
+  GLfloat sizes[2] = {1, 1};
+  gl.GetFloatv(GL_POINT_SIZE_RANGE, sizes);
+  if (sizes[1] < static_cast<GLfloat>(edge))
+    throw GraphicsError("render.skip draws points of " + std::to_string(edge) +
+                        " pixels, and this driver's are at most " +
+                        std::to_string(static_cast<int>(sizes[1])) + "; set render.skip to none");
+  gl.PointSize(static_cast<float>(edge));
+  gl.Viewport(0, 0, whole_tiles(target.width, edge), whole_tiles(target.height, edge));
+}
+
 } // namespace
 
 SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepared) : gl_(&gl) {
@@ -75,6 +91,8 @@ SliceRenderer::SliceRenderer(const gl::Functions& gl, const PreparedScene& prepa
   std::vector<std::string> macros = common_macros(prepared);
   if (marks_hidden(prepared))
     macros.emplace_back("HIDDEN");
+  if (uses_occupancy(prepared))
+    macros.emplace_back("OCCUPANCY");
   std::vector<gl::ShaderSource> stages = shader_stage(GL_VERTEX_SHADER, name + ".vert", macros);
   const auto fragment = shader_stage(GL_FRAGMENT_SHADER, name + ".frag", macros, generated);
   stages.insert(stages.end(), fragment.begin(), fragment.end());
@@ -101,6 +119,7 @@ void SliceRenderer::set_geometry(const StackGeometry& geometry) {
   numbers_ = geometry.numbers;
   batches_ = geometry.batches;
   planes_in_passes_ = geometry.planes;
+  tile_edge_ = geometry.tile_edge;
 
   const gl::StateGuard guard(*gl_);
   gl_->BindVertexArray(vertex_array_.name());
@@ -122,7 +141,8 @@ void SliceRenderer::draw_entries(std::size_t begin, std::size_t end) const {
   if (begin >= end)
     return;
   const std::size_t first = begin == 0 ? 0 : index_ends_[begin - 1];
-  gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(index_ends_[end - 1] - first), GL_UNSIGNED_INT,
+  gl_->DrawElements(tile_edge_ > 0 ? GL_POINTS : GL_TRIANGLES,
+                    static_cast<GLsizei>(index_ends_[end - 1] - first), GL_UNSIGNED_INT,
                     reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
 }
 
@@ -232,9 +252,10 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   set_uniform(gl, program_, "slope_from_pixel",
               glm::vec4(2 * half_width(view) / view.width, 2 * view.half_height / view.height,
                         -half_width(view), -view.half_height));
-  if (draws_slabs(prepared))
+  if (draws_slabs(prepared)) {
     set_slab_uniforms(gl, program_, prepared);
-  else if (render.proxy == Proxy::shells || render.classification == Classification::preintegrated) {
+    set_occupancy(gl, program_, scene.occupancy);
+  } else if (render.proxy == Proxy::shells || render.classification == Classification::preintegrated) {
     set_ray_uniforms(gl, program_, prepared);
     set_uniform(gl, program_, "place_from_pixel", 2.0F / glm::vec2(view.width, view.height));
   }
@@ -254,6 +275,8 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
       marks_.emplace(gl, target);
     marks_->begin();
   }
+  if (tile_edge_ > 0)
+    begin_tiles(gl, target, tile_edge_);
   draw_in_parts(gl, prepared, scene, numbers_, target, Splitting::everywhere, "the stack",
                 [&](std::size_t begin, std::size_t end) {
                   if (marked)
@@ -261,6 +284,8 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
                   else
                     draw_stack(scene, begin, end, progress);
                 });
+  gl.PointSize(1);
+  gl.Viewport(0, 0, target.width, target.height);
   if (planes_)
     draw_planes_last(prepared, scene);
   if (maxima_)

@@ -65,6 +65,7 @@ private:
   gl::Buffer indices_;
   std::vector<std::size_t> index_ends_; ///< of each slice, or pass of several, in the index buffer
   std::vector<SliceNumbers> numbers_;   ///< of each
+  int tile_edge_ = 0;                   ///< StackGeometry::tile_edge
   std::size_t planes_in_passes_ = 0;    ///< where passes draw several (render/slabs.h)
   std::optional<PlaneRenderer> planes_; ///< where the scene has some
   std::vector<TileBatch> batches_;      ///< where the volume is held in tiles

@@ -37,6 +37,10 @@ struct StackGeometry {
   /// where tiles share no more than edges: so blending is in order. Every other slice goes through its tiles
   /// backwards, so that a slice begins with the tile that the one before ended with.
   std::vector<TileBatch> batches;
+  /// Of passes that are drawn in tiles: each corner is the middle of a square tile of so many pixels, in clip
+  /// coordinates of a viewport of whole tiles (render/pass_tiles.h), and `indices` are single corners. Else
+  /// 0.
+  int tile_edge = 0;
   std::size_t planes = 0; ///< of all passes, where a pass draws several (render/slabs.h); else 0
   double cut_seconds = 0; ///< wall clock of cutting planes with the box; what else the call takes is making
                           ///< triangles

@@ -40,6 +40,8 @@ void add_shading_macros(const PreparedScene& prepared, std::vector<std::string>&
   }
   macros.emplace_back("GRADIENTS");
   macros.push_back("GRADIENT_" + upper_case(word(render.gradient)));
+  if (reads_value_with_gradient(prepared))
+    macros.emplace_back("VALUE_WITH_GRADIENT");
   if (prepared.gradient_space == GradientSpace::object)
     macros.emplace_back("GRADIENT_IN_OBJECT_SPACE");
   if (!prepared.scene.light.direction)

@@ -159,6 +159,10 @@ void render_keys(Visitor& visit, Settings& s) {
             "displayed volume: Brunet 2006) (none: as the first warp's paper did)");
   visit.key("gradient_resolution", s.gradient_resolution,
             "of the Gaussian copy of gradient prefiltered: full, half or quarter");
+  visit.key(
+      "gradient_texture", s.gradient_texture,
+      "of gradient precomputed: rgb16f, or rgba32f with the value beside it, so that a shaded sample is one "
+      "fetch (16 bytes a voxel)");
   visit.key("gradient_sigma", s.gradient_sigma,
             "standard deviation of that Gaussian in voxels of the copy, 0.3 to 8", Range::positive);
   visit.key("classification", s.classification,
@@ -208,7 +212,7 @@ void render_keys(Visitor& visit, Settings& s) {
       "samples that are left out because they cannot change the picture: none, empty (where the transfer "
       "function shows nothing) or empty+hidden (also behind opaque ones)");
   visit.key("planes_per_pass", s.planes_per_pass,
-            "slices that one fragment samples before it blends, 1 to 64; 1: one, as the papers draw");
+            "slices that one fragment samples before it blends, 1 to 4096; 1: one, as the papers draw");
   visit.key("early_termination", s.early_termination, "rays stop at this opacity in (0,1]; 1: never",
             Range::unit);
   visit.key("background", s.background, "[r, g, b, a] in [0,1], not associated", Range::unit);

@@ -84,6 +84,12 @@ const std::vector<EnumName<GradientSpace>>& names_of(GradientSpace) {
   return names;
 }
 
+const std::vector<EnumName<GradientFormat>>& names_of(GradientFormat) {
+  static const std::vector<EnumName<GradientFormat>> names = {{GradientFormat::rgb16f, "rgb16f"},
+                                                              {GradientFormat::rgba32f, "rgba32f"}};
+  return names;
+}
+
 const std::vector<EnumName<GradientResolution>>& names_of(GradientResolution) {
   static const std::vector<EnumName<GradientResolution>> names = {{GradientResolution::full, "full"},
                                                                   {GradientResolution::half, "half"},

@@ -29,6 +29,7 @@ const std::vector<EnumName<Shading>>& names_of(Shading);
 const std::vector<EnumName<Gradient>>& names_of(Gradient);
 const std::vector<EnumName<GradientSpace>>& names_of(GradientSpace);
 const std::vector<EnumName<GradientResolution>>& names_of(GradientResolution);
+const std::vector<EnumName<GradientFormat>>& names_of(GradientFormat);
 const std::vector<EnumName<Classification>>& names_of(Classification);
 const std::vector<EnumName<Filter>>& names_of(Filter);
 const std::vector<EnumName<Footprint>>& names_of(Footprint);

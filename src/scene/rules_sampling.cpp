@@ -181,6 +181,11 @@ void validate_gradients(const Scene& scene) {
     throw UsageError("render.gradient_sigma must be from 0.3 to 8 voxels of the copy, not " +
                      number_text(render.gradient_sigma));
   }
+  if (render.gradient_texture != GradientFormat::rgb16f && render.gradient != Gradient::precomputed) {
+    throw UsageError("render.gradient_texture '" + word(render.gradient_texture) +
+                     "' holds the gradients of render.gradient 'precomputed', which is '" +
+                     word(render.gradient) + "'; set render.gradient to precomputed");
+  }
   if (!uses_gradients(scene))
     return;
   const bool own_texture =

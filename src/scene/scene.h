@@ -68,7 +68,7 @@ struct CameraSettings {
 };
 
 /// Most planes that one fragment samples.
-inline constexpr std::size_t max_planes_per_pass = 64;
+inline constexpr std::size_t max_planes_per_pass = 4096;
 
 enum class Pipeline { slices, tessellated, axis, fragment, grid, fixed_function, rays, reference };
 /// `two_level`: a transfer function and a mode for each label (Hauser, Mroz, Bischi and Gröller 2001).
@@ -87,6 +87,8 @@ enum class Gradient { forward, central, prefiltered, precomputed };
 enum class GradientSpace { data, object };
 /// Of the Gaussian copy, as a share of the volume's voxels on each axis.
 enum class GradientResolution { full, half, quarter };
+/// Of `precomputed`: halfs, or floats with the data's value beside the gradient.
+enum class GradientFormat { rgb16f, rgba32f };
 /// `pre`: voxels become colours of 8 bits before they are interpolated; `preintegrated`: samples stand for
 /// segments (Engel, Kraus and Ertl 2001).
 enum class Classification { post, pre, preintegrated };
@@ -124,6 +126,7 @@ struct RenderSettings {
   Gradient gradient = Gradient::central;
   std::optional<GradientSpace> gradient_space = std::nullopt;        ///< none: gradient_space_of decides
   GradientResolution gradient_resolution = GradientResolution::full; ///< of `prefiltered`
+  GradientFormat gradient_texture = GradientFormat::rgb16f;          ///< of `precomputed`
   double gradient_sigma = 1; ///< of `prefiltered`: standard deviation in voxels of its copy
   Classification classification = Classification::post;
   Filter filter = Filter::linear;

@@ -33,17 +33,18 @@ void include_run(const T* run, std::size_t count, T filler, T& low, T& high) {
 }
 
 /// First and last voxel of cell `i` with its reach.
-std::array<std::size_t, 2> voxels_of(std::size_t i, std::size_t reach, std::size_t count) {
-  return {i * cell_edge - std::min(i * cell_edge, reach), std::min((i + 1) * cell_edge + reach, count) - 1};
+std::array<std::size_t, 2> voxels_of(std::size_t i, const CellRanges& cells, std::size_t count) {
+  const std::size_t first = i * cells.edge;
+  return {first - std::min(first, cells.reach), std::min(first + cells.edge + cells.reach, count) - 1};
 }
 
 template <class T>
 void fill_cell(const Volume& volume, CellRanges& cells, std::size_t i, std::size_t j, std::size_t k) {
   const T* voxels = reinterpret_cast<const T*>(volume.voxels.data());
   const auto& dims = volume.dims;
-  const auto x = voxels_of(i, cells.reach, dims[0]);
-  const auto y = voxels_of(j, cells.reach, dims[1]);
-  const auto z = voxels_of(k, cells.reach, dims[2]);
+  const auto x = voxels_of(i, cells, dims[0]);
+  const auto y = voxels_of(j, cells, dims[1]);
+  const auto z = voxels_of(k, cells, dims[2]);
   T low = std::numeric_limits<T>::max();
   T high = std::numeric_limits<T>::lowest();
   const T filler = static_cast<T>(volume.min);
@@ -58,11 +59,12 @@ void fill_cell(const Volume& volume, CellRanges& cells, std::size_t i, std::size
 
 } // namespace
 
-CellRanges cell_ranges(const Volume& volume, std::size_t reach) {
+CellRanges cell_ranges(const Volume& volume, std::size_t reach, std::size_t edge) {
   CellRanges cells;
+  cells.edge = edge;
   cells.reach = reach;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    cells.size[axis] = (volume.dims[axis] + cell_edge - 1) / cell_edge;
+    cells.size[axis] = (volume.dims[axis] + edge - 1) / edge;
   const std::size_t count = cells.size[0] * cells.size[1] * cells.size[2];
   cells.smallest.resize(count);
   cells.largest.resize(count);

@@ -22,7 +22,7 @@ void check_passes(const std::vector<std::string>& settings, double flips = 0) {
     const PreparedScene plain = changed(head_scene(), with(settings, {"camera.projection=" + projection}));
     const Image expected = picture(plain, context);
     CHECK(share_over(expected, make_image(expected.width, expected.height), 0.02) > 0.02); // there is one
-    for (const std::string planes : {"2", "7", "64"}) {
+    for (const std::string planes : {"2", "7", "256"}) {
       for (const std::string order : {"back-to-front", "front-to-back"}) {
         INFO(projection << ", " << planes << " planes, " << order);
         const Image passes =

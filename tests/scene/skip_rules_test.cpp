@@ -37,8 +37,8 @@ TEST_CASE("several planes a pass: what is taken and what is refused by name") {
   CHECK(refusal(passes).empty());
   CHECK(refusal(passes + R"(,"mode":"mip")").empty());
   CHECK(refusal(passes + R"(,"pipeline":"fragment")", twist).empty());
-  CHECK(contains(refusal(R"("planes_per_pass":0)"), "render.planes_per_pass must be from 1 to 64, not 0"));
-  CHECK(contains(refusal(R"("planes_per_pass":65)"), "not 65"));
+  CHECK(contains(refusal(R"("planes_per_pass":0)"), "render.planes_per_pass must be from 1 to 4096, not 0"));
+  CHECK(contains(refusal(R"("planes_per_pass":4097)"), "not 4097"));
   CHECK(contains(refusal(passes + R"(,"pipeline":"rays")"), "pipeline 'rays' has none"));
   CHECK(contains(refusal(passes + R"(,"pipeline":"tessellated")", twist),
                  "use slices, axis, fragment or grid"));

@@ -63,9 +63,9 @@ std::vector<Way> ways() {
   const KeyValue front{"render.order", "front-to-back"};
   const KeyValue rays{"render.pipeline", "rays"};
   std::vector<Way> result = {{"plain slices again", {}}};
-  for (const std::string planes : {"4", "16", "32"})
+  for (const std::string planes : {"4", "32", "256"})
     result.push_back({planes + " planes a pass", {{"render.planes_per_pass", planes}}});
-  for (const std::string planes : {"1", "16", "32"}) {
+  for (const std::string planes : {"1", "32", "64", "256"}) {
     const KeyValue count{"render.planes_per_pass", planes};
     result.push_back({"`empty`, " + planes, {count, {"render.skip", "empty"}}});
     result.push_back({"`empty+hidden`, " + planes, {count, front, {"render.skip", "empty+hidden"}}});
