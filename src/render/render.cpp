@@ -2,8 +2,8 @@
 
 #include "core/errors.h"
 #include "core/stopwatch.h"
-#include "render/reference.h"
 #include "render/paged_draw.h"
+#include "render/reference.h"
 #include "render/render_session.h"
 #include "render/scene_overlay.h"
 #include "scene/names.h"
