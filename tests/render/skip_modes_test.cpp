@@ -159,9 +159,9 @@ TEST_CASE("under every kind of bounds tiles are left out") {
   scene.transfer = rising(600, 1200, 1);
   const std::vector<std::string> skip = {"render.skip=empty"};
   const double plain = drawn_share(changed(scene, skip));
-  CHECK(plain < 0.25); // bone fills a fifth of the tiles of 80 passes over 80 × 64 pixels
-  // A fisheye shows the middle of the head four times as large and so fills half of them; before bounds were
-  // known all of the box was drawn.
+  CHECK(plain < 0.4); // bone fills a third of the 16-pixel tiles of 80 passes over 80 × 64 pixels
+  // A fisheye shows the middle of the head four times as large and so fills two thirds of them; before bounds
+  // were known all of the box was drawn.
   for (const std::vector<std::string>& keys : std::vector<std::vector<std::string>>{
            {"render.pipeline=axis", R"(warp={"kind":"bifocal"})"},
            {"render.pipeline=axis", fisheye},
@@ -172,6 +172,6 @@ TEST_CASE("under every kind of bounds tiles are left out") {
     INFO(keys.back());
     const double share = drawn_share(changed(scene, with(keys, skip)));
     CHECK(share > 0.5 * plain);
-    CHECK(share < 0.55);
+    CHECK(share < 0.75);
   }
 }
