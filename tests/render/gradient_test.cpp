@@ -1,5 +1,6 @@
 // Kinds of gradient: on volumes whose derivatives are known, and the GPU against the reference.
 #include "catch.h"
+#include "render/gradient_texture.h"
 #include "render_fixture.h"
 #include "volume_fixture.h"
 
@@ -209,4 +210,27 @@ TEST_CASE("the kinds of gradient differ, and the second texture is counted") {
   CHECK(more({prefiltered}) == 4 * 40 * 40 * 40);
   CHECK(more({prefiltered, "render.gradient_resolution=half"}) == 4 * 20 * 20 * 20);
   CHECK(more({prefiltered, "render.gradient_resolution=quarter"}) == 4 * 10 * 10 * 10);
+}
+
+TEST_CASE("gradient and value in one texture show what two textures show") {
+  gl::Context context = test_context();
+  const PreparedScene scene = changed(head_scene(connected, true), {"render.shading=phong", precomputed});
+  const std::string floats = "render.gradient_texture=rgba32f";
+  for (const std::string pipeline : {"fragment", "rays"}) {
+    for (const std::string filter : {"linear-exact", "cubic"}) { // cubic reads the value from its own texture
+      const std::vector<std::string> keys = {"render.pipeline=" + pipeline, "render.filter=" + filter};
+      const PreparedScene two = changed(scene, keys);
+      const PreparedScene one = changed(two, {floats});
+      CHECK(reads_value_with_gradient(one) == (filter == "linear-exact"));
+      const Image halfs = picture(two, context);
+      // Halfs turn normals by up to 0.03°, under the power of the highlight less than 1/255; the value is
+      // exact.
+      CHECK(max_difference(halfs, picture(one, context)) < 1.0 / 255);
+    }
+  }
+  const PreparedScene plain = changed(head_scene("[]", false), {"render.shading=diffuse", precomputed});
+  CHECK(render(changed(plain, {floats}), &context, {}).texture_bytes -
+            render(plain, &context, {}).texture_bytes ==
+        (16 - 6) * 40 * 40 * 40);
+  CHECK_THROWS_WITH(changed(plain, {central, floats}), Catch::Contains("render.gradient_texture"));
 }
