@@ -28,14 +28,7 @@ std::size_t texel_bytes(const PreparedScene& prepared) {
   const RenderSettings& render = prepared.scene.render;
   if (render.classification == Classification::pre)
     return classified_voxel_bytes;
-  switch (chosen_texture(render.volume_texture, prepared.volume.type)) {
-  case VolumeTexture::r8:
-    return 1;
-  case VolumeTexture::r16:
-    return 2;
-  default:
-    return 4;
-  }
+  return texel_bytes(render.volume_texture, prepared.volume.type);
 }
 
 /// Whether taps of gradients go through the warp and may look anywhere.

@@ -3,6 +3,7 @@
 #include "gl/check.h"
 #include "gl/state.h"
 #include "gl/timer.h"
+#include "render/blending.h"
 #include "render/cut_planes.h"
 #include "render/occupancy.h"
 #include "render/paged_draw.h"
@@ -41,17 +42,6 @@ std::vector<SliceNumbers> sample_numbers(const PreparedScene& prepared) {
   for (auto k = static_cast<std::int64_t>(first); k <= static_cast<std::int64_t>(last); ++k)
     numbers.push_back({k, k});
   return numbers;
-}
-
-/// Each part lies behind those before it.
-void set_part_blending(const gl::Functions& gl, Mode mode) {
-  gl.Enable(GL_BLEND);
-  const bool extreme = mode == Mode::mip || mode == Mode::minip;
-  gl.BlendEquation(extreme ? GL_MAX : GL_FUNC_ADD);
-  if (mode == Mode::xray || mode == Mode::average)
-    gl.BlendFunc(GL_ONE, GL_ONE);
-  else
-    gl.BlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
 }
 
 } // namespace
@@ -128,7 +118,7 @@ void RayRenderer::draw_parts(const PreparedScene& prepared, const GpuScene& scen
   const bool below_all = gathers && prepared.others.empty() && render.mode != Mode::average;
   gl.ClearColor(below_all ? -3.0e38F : 0.0F, 0, 0, 0);
   gl.Clear(GL_COLOR_BUFFER_BIT);
-  set_part_blending(gl, render.mode);
+  set_blending(gl, render.mode, Order::front_to_back); // each part lies behind those before it
   const bool effects = has_highlight(prepared.effects) || has_attenuation(prepared.effects);
   const bool picks = gathers && effects; // a maximum brings its own effects along
   const Splitting splitting =
@@ -140,22 +130,10 @@ void RayRenderer::draw_parts(const PreparedScene& prepared, const GpuScene& scen
                               glm::vec2(numbers[begin].first, numbers[end - 1].last));
                   gl.DrawArrays(GL_TRIANGLES, 0, 3);
                 });
-  if (gathers)
-    classify(prepared, scene, target);
-}
-
-void RayRenderer::classify(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target) {
-  const gl::Functions& gl = *gl_;
-  gl::bind_target(gl, target);
-  gl.Disable(GL_BLEND);
-  gl.UseProgram(classify_program_.name());
-  set_common_uniforms(gl, classify_program_, prepared, scene);
-  gl.ActiveTexture(GL_TEXTURE2);
-  gl.BindTexture(GL_TEXTURE_2D, gathered_->color.name());
-  set_uniform(gl, classify_program_, "maxima", 2);
-  set_uniform(gl, classify_program_, "value_from_unit",
-              glm::vec2(prepared.scene.render.mode == Mode::minip ? -1 : 1, 0));
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  if (gathers) {
+    const glm::dvec2 value_from_unit(render.mode == Mode::minip ? -1 : 1, 0);
+    classify_gathered(gl, classify_program_, prepared, scene, *gathered_, value_from_unit, target);
+  }
 }
 
 } // namespace slicelens

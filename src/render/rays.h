@@ -20,7 +20,6 @@ public:
 
 private:
   void draw_parts(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target);
-  void classify(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target);
 
   const gl::Functions* gl_;
   gl::Program program_;

@@ -4,6 +4,7 @@
 #include "gl/check.h"
 #include "gl/state.h"
 #include "gl/timer.h"
+#include "render/blending.h"
 #include "render/paged_draw.h"
 #include "render/pass_tiles.h"
 #include "render/ray_uniforms.h"
@@ -54,19 +55,6 @@ void set_depth_test(const gl::Functions& gl, const RenderSettings& render) {
   gl.DepthFunc(render.order == Order::back_to_front ? GL_GEQUAL : GL_GREATER);
   gl.ClearDepth(0);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-}
-
-void set_blending(const gl::Functions& gl, const RenderSettings& render) {
-  gl.Enable(GL_BLEND);
-  const bool extreme = render.mode == Mode::mip || render.mode == Mode::minip;
-  gl.BlendEquation(extreme ? GL_MAX : GL_FUNC_ADD);
-  if (render.mode == Mode::xray || render.mode == Mode::average) {
-    gl.BlendFunc(GL_ONE, GL_ONE);
-  } else if (render.order == Order::back_to_front) {
-    gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  } else {
-    gl.BlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
-  }
 }
 
 /// Tiles are drawn as points: squares that lie on the pixels exactly and, unlike pairs of triangles, have no
@@ -268,7 +256,7 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   if (picks_winner(prepared))
     set_depth_test(gl, render);
   else
-    set_blending(gl, render);
+    set_blending(gl, render.mode, render.order);
   const bool marked = marks_hidden(prepared);
   if (marked) {
     if (!marks_ || !marks_->fits(target))
@@ -288,8 +276,10 @@ void SliceRenderer::draw(const PreparedScene& prepared, const GpuScene& scene, c
   gl.Viewport(0, 0, target.width, target.height);
   if (planes_)
     draw_planes_last(prepared, scene);
-  if (maxima_)
-    classify_maxima(prepared, scene, target);
+  if (maxima_) {
+    gl.BindVertexArray(no_vertices_.name());
+    classify_gathered(gl, classify_program_, prepared, scene, *maxima_, value_from_unit(prepared), target);
+  }
   gl::check_errors(gl, "drawing the slices");
 }
 
@@ -314,22 +304,6 @@ void SliceRenderer::draw_planes_last(const PreparedScene& prepared, const GpuSce
     return;
   gl_->DepthFunc(GL_EQUAL);
   planes_->draw(prepared, scene);
-}
-
-void SliceRenderer::classify_maxima(const PreparedScene& prepared, const GpuScene& scene,
-                                    const gl::Target& target) {
-  const gl::Functions& gl = *gl_;
-  gl::bind_target(gl, target);
-  gl.Disable(GL_BLEND);
-  gl.Disable(GL_DEPTH_TEST);
-  gl.UseProgram(classify_program_.name());
-  set_common_uniforms(gl, classify_program_, prepared, scene);
-  gl.ActiveTexture(GL_TEXTURE2);
-  gl.BindTexture(GL_TEXTURE_2D, maxima_->color.name());
-  set_uniform(gl, classify_program_, "maxima", 2);
-  set_uniform(gl, classify_program_, "value_from_unit", glm::vec2(value_from_unit(prepared)));
-  gl.BindVertexArray(no_vertices_.name());
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 } // namespace slicelens

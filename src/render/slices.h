@@ -51,7 +51,6 @@ private:
   /// front to back they come last, under the slices.
   void draw_planes_first(const PreparedScene& prepared, const GpuScene& scene) const;
   void draw_planes_last(const PreparedScene& prepared, const GpuScene& scene) const;
-  void classify_maxima(const PreparedScene& prepared, const GpuScene& scene, const gl::Target& target);
 
   const gl::Functions* gl_;
   gl::Program program_;

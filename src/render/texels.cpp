@@ -81,12 +81,6 @@ Coding chosen_coding(const PreparedScene& prepared) {
 
 } // namespace
 
-VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type) {
-  if (wish != VolumeTexture::automatic)
-    return wish;
-  return size_of(type) <= 2 ? VolumeTexture::r16 : VolumeTexture::r32f;
-}
-
 TexelCoding texel_coding(const PreparedScene& prepared) {
   const Volume& volume = prepared.volume;
   TexelCoding result;

@@ -3,6 +3,7 @@
 
 #include "gl/handle.h"
 #include "render/prepare.h"
+#include "scene/volume_texture.h"
 
 #include <cstddef>
 #include <span>
@@ -19,10 +20,6 @@ struct TexelCoding {
   double offset = 0;
   glm::vec2 value_from_texel{1, 0}; ///< data value = x · texel as shaders read it + y
 };
-
-/// The texture that render.volume_texture `auto` stands for: r16 for integers of 8 and 16 bits, which it
-/// holds exactly, else r32f. Not r8: software drivers filter 8-bit textures to 8 bits (docs/accuracy.md).
-VolumeTexture chosen_texture(VolumeTexture wish, ScalarType type);
 
 /// Integers are stored so that they come back exactly where the format has the bits; otherwise values are
 /// scaled to the format over the volume's range. With levels the means of coarser ones get the codes between

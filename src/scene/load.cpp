@@ -5,6 +5,7 @@
 #include "scene/camera_files.h"
 #include "scene/rules.h"
 #include "scene/transfer_files.h"
+#include "scene/volume_texture.h"
 #include "volume/on_disk.h"
 #include "volume/phantom.h"
 
@@ -71,12 +72,7 @@ fs::path beside_scene(const std::string& file, const std::vector<fs::path>& fold
 
 /// Whether the budget holds all voxels of a volume like this.
 bool fits(const Volume& volume, const VoxelBudget& budget) {
-  const std::size_t automatic = size_of(volume.type) <= 2 ? 2 : 4;
-  const std::size_t texel = budget.texture == VolumeTexture::automatic ? automatic
-                            : budget.texture == VolumeTexture::r8      ? 1
-                            : budget.texture == VolumeTexture::r16     ? 2
-                                                                       : 4;
-  return voxel_count(volume) <= budget.bytes / texel;
+  return voxel_count(volume) <= budget.bytes / texel_bytes(budget.texture, volume.type);
 }
 
 Volume stream_or_refuse(const VolumeSource& source, const VoxelBudget& budget, const Progress& progress) {

@@ -1,5 +1,6 @@
 #include "volume/scan.h"
 
+#include "volume/scalar_sums.h"
 #include "volume/transfer.h"
 
 #include <tbb/parallel_for.h>
@@ -26,14 +27,6 @@ std::size_t last_cell(std::size_t i, std::size_t cells) {
   return std::min((i + scan_reach) / cell_edge, cells - 1);
 }
 
-/// Sums over one piece of a plane; they are added in the file's order, so that the mean is always the same.
-struct Sums {
-  double min = std::numeric_limits<double>::infinity();
-  double max = -std::numeric_limits<double>::infinity();
-  double sum = 0;
-  std::size_t finite = 0;
-};
-
 template <class T>
 bool is_number(T value) {
   if constexpr (std::is_floating_point_v<T>)
@@ -54,11 +47,11 @@ bool all_numbers(const T* row, std::size_t count) {
 }
 
 template <class T>
-void add_row(const T* row, std::size_t count, Sums& sums) {
+void add_row(const T* row, std::size_t count, ScalarSums& sums) {
   T low = std::numeric_limits<T>::max();
   T high = std::numeric_limits<T>::lowest();
   std::size_t finite = 0;
-  // Sums of up to 32 bits are exact in 64, and quicker than in double.
+  // ScalarSums of up to 32 bits are exact in 64, and quicker than in double.
   std::conditional_t<std::is_integral_v<T> && sizeof(T) <= 4, std::int64_t, double> sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const bool number = is_number(row[i]);
@@ -146,13 +139,9 @@ public:
 
   VoxelScan result() {
     VoxelScan scan;
-    Sums all;
-    for (const Sums& one : sums_) {
-      all.min = std::min(all.min, one.min);
-      all.max = std::max(all.max, one.max);
-      all.sum += one.sum;
-      all.finite += one.finite;
-    }
+    ScalarSums all;
+    for (const ScalarSums& one : sums_) // in the file's order, so that the mean is always the same
+      all = joined(all, one);
     scan.non_finite = dims_[0] * dims_[1] * dims_[2] - all.finite;
     if (all.finite > 0) {
       scan.min = all.min;
@@ -239,7 +228,7 @@ private:
   std::unique_ptr<std::mutex[]> layers_;
   std::size_t rows_ = 1; ///< that are read at once
   std::size_t units_in_plane_ = 1;
-  std::vector<Sums> sums_; ///< of every unit: rows of one plane
+  std::vector<ScalarSums> sums_; ///< of every unit: rows of one plane
   std::size_t stride_ = 1;
   std::vector<double> samples_;
   std::atomic<std::size_t> next_{0};

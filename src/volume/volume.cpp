@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "core/text.h"
+#include "volume/scalar_sums.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -31,20 +32,13 @@ const std::vector<std::pair<ScalarType, std::string>>& type_names() {
   return names;
 }
 
-/// Sums for one pass over the scalars. Compensated summation is not needed: pairwise splitting keeps the
-/// mean's rounding error near 1e-13 relative.
-struct Sums {
-  double min = std::numeric_limits<double>::infinity();
-  double max = -std::numeric_limits<double>::infinity();
-  double sum = 0;
-  std::size_t finite = 0;
-};
-
+/// Compensated summation is not needed: pairwise splitting keeps the mean's rounding error near 1e-13
+/// relative.
 template <class T>
-Sums sums_of(const T* scalars, std::size_t count) {
+ScalarSums sums_of(const T* scalars, std::size_t count) {
   return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, count, std::size_t{1} << 16), Sums{},
-      [&](const tbb::blocked_range<std::size_t>& range, Sums sums) {
+      tbb::blocked_range<std::size_t>(0, count, std::size_t{1} << 16), ScalarSums{},
+      [&](const tbb::blocked_range<std::size_t>& range, ScalarSums sums) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
           const double value = static_cast<double>(scalars[i]);
           if constexpr (std::is_floating_point_v<T>) {
@@ -58,9 +52,7 @@ Sums sums_of(const T* scalars, std::size_t count) {
         }
         return sums;
       },
-      [](const Sums& a, const Sums& b) {
-        return Sums{std::min(a.min, b.min), std::max(a.max, b.max), a.sum + b.sum, a.finite + b.finite};
-      });
+      joined);
 }
 
 } // namespace
@@ -116,7 +108,7 @@ double value_at(const Volume& volume, std::size_t i, std::size_t j, std::size_t 
 
 void update_statistics(Volume& volume) {
   const std::size_t count = voxel_count(volume) * static_cast<std::size_t>(volume.components);
-  const Sums sums = visit_scalar_type(volume.type, [&](auto* tag) {
+  const ScalarSums sums = visit_scalar_type(volume.type, [&](auto* tag) {
     using T = std::remove_pointer_t<decltype(tag)>;
     return sums_of(reinterpret_cast<const T*>(volume.voxels.data()), count);
   });
